@@ -95,7 +95,7 @@ std::string csv(const Study& study, const ReplayedSample& sample) {
 bool liesInEnvelope(const ReplayedSample& sample, const Results& results) {
   const StochasticResult& samples = results.stochastic;
   const bool allCounted = samples.integrated == samples.planned() &&
-                          (!results.comparison.present || results.comparison.verdict == "inside");
+                          (!results.comparison.present || results.comparison.verdict == Agreement::inside);
   for (std::size_t i = 0; allCounted && i < sample.trajectory.data.size(); ++i) {
     const double value = sample.trajectory.data[i];
     if (value < samples.envelope.lower.data[i] || value > samples.envelope.upper.data[i]) return false;

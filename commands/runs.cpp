@@ -52,7 +52,9 @@ void say(const Results& results, const Verdict& verdict, const ResultFiles& file
     fmt::print(stream, "{}", textSummary(results));
     fmt::print(stream, "  results: {}\n  report:  {}\n", nameOrNone(files.results), nameOrNone(files.report));
   }
-  if (arguments.json) fmt::print("{}\n", jsonSummary(results, results.comparison.present ? verdict.word : "", files));
+  if (arguments.json)
+    fmt::print("{}\n",
+               jsonSummary(results, results.comparison.present ? std::string(wordOf(verdict.word)) : "", files));
 }
 
 std::string inWords(const std::exception& error) {

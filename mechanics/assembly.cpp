@@ -316,7 +316,7 @@ S Assembly<S>::output(const std::string& quantity) const {
     const std::string name(word);
     return parts_.measured_.contains(name) || parts_.parameters_.contains(name);
   };
-  return parts_.signal(Expression::parse(quantity, isName))();
+  return output(Expression::parse(quantity, isName));
 }
 
 GAMUT_COMPILED_HERE(Assembly)

@@ -54,6 +54,7 @@ class Assembly {
   /// The present value of one of Mechanism::outputQuantities(), or of an expression of these, of parameters and of time
   /// t. Throws std::invalid_argument for any other name, naming the nearest, and for what is no expression.
   S output(const std::string& quantity) const;
+  S output(const Expression& quantity) const { return parts_.signal(quantity)(); }
 
   /// Whatever is done to it counts as another motion.
   System<S>& system() {

@@ -89,27 +89,47 @@ std::vector<RestingPair> restsOf(const Mechanism& mechanism) {
   return rests;
 }
 
-std::vector<Recorded> recordOutputs(const Assembly<Recorded>& assembly, const std::vector<std::string>& outputs) {
+namespace {
+
+template <class Output>
+std::vector<Recorded> valuesOf(const Assembly<Recorded>& assembly, std::span<const Output> outputs) {
   std::vector<Recorded> values;
-  for (const std::string& output : outputs) {
+  for (const Output& output : outputs) {
     try {
       values.push_back(assembly.output(output));
     } catch (const std::domain_error& error) {
-      throw UndefinedOutput(values.size(), "'" + output + "' has no value: " + error.what());
+      throw UndefinedOutput(values.size(), std::string("has no value: ") + error.what());
     }
   }
   return values;
 }
 
-Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
-                      const std::vector<std::string>& outputs) {
+template <class Output>
+Program recorded(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                 std::span<const Output> outputs) {
   return record(static_cast<int>(mechanism.stateNames().size()), static_cast<int>(freeParameters.size()),
                 static_cast<int>(outputs.size()), [&](auto t, const auto& x, const auto& p, auto& y) {
                   Assembly<Recorded> assembly(mechanism, freeParameters, p);
                   const std::vector<Recorded> values =
-                      assembly.ofMotion(x, t, [&] { return recordOutputs(assembly, outputs); });
+                      assembly.ofMotion(x, t, [&] { return valuesOf(assembly, outputs); });
                   for (std::size_t i = 0; i < values.size(); ++i) y[i] = values[i];
                 });
+}
+
+}  // namespace
+
+std::vector<Recorded> recordOutputs(const Assembly<Recorded>& assembly, std::span<const Expression> outputs) {
+  return valuesOf(assembly, outputs);
+}
+
+Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                      std::span<const Expression> outputs) {
+  return recorded(mechanism, freeParameters, outputs);
+}
+
+Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                      const std::vector<std::string>& outputs) {
+  return recorded(mechanism, freeParameters, std::span<const std::string>(outputs));
 }
 
 }  // namespace gamut

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,7 +29,7 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
 /// The coordinates and speeds of this motion that come to rest on rigid ends.
 std::vector<RestingPair> restsOf(const Mechanism& mechanism);
 
-/// An output has no value, whatever the motion; what() is one sentence.
+/// An output has no value, whatever the motion; what() says so of it: "has no value: why".
 class UndefinedOutput : public std::invalid_argument {
  public:
   UndefinedOutput(std::size_t output, const std::string& sentence) : std::invalid_argument(sentence), output_(output) {}
@@ -40,10 +41,12 @@ class UndefinedOutput : public std::invalid_argument {
 };
 
 /// The values of outputs, as in Assembly::output. Throws UndefinedOutput.
-std::vector<Recorded> recordOutputs(const Assembly<Recorded>& assembly, const std::vector<std::string>& outputs);
+std::vector<Recorded> recordOutputs(const Assembly<Recorded>& assembly, std::span<const Expression> outputs);
 
 /// y = g(t, x, p): one value for each output. Throws std::invalid_argument as recordMotion, for an unknown output, and
 /// UndefinedOutput.
+Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                      std::span<const Expression> outputs);
 Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                       const std::vector<std::string>& outputs);
 

@@ -1,14 +1,14 @@
-// What a requirement's statement compares says what stays above or below what.
+// What is demanded, and what is known of it, in whole sentences.
 #include "reports/plain.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <span>
 
 #include "reports/requirements.hpp"
 #include "studies/results/extremes.hpp"
@@ -17,46 +17,26 @@
 namespace gamut {
 namespace {
 
-bool isNumber(const std::string& side) {
-  const std::size_t first = side.find_first_not_of("+-");
-  return first != std::string::npos &&
-         (std::isdigit(static_cast<unsigned char>(side[first])) != 0 || side[first] == '.');
-}
-
 /// “tip height” of 'tip height'; formulas as they are.
-std::string nameOf(const std::string& side) {
-  const bool isQuoted = side.size() > 2 && side.front() == '\'' && side.find('\'', 1) == side.size() - 1;
-  return "\u201c" + (isQuoted ? side.substr(1, side.size() - 2) : side) + "\u201d";
-}
-
-/// x of "abs(x)"; empty for anything else.
-std::string insideOfAbs(const std::string& side) {
-  if (!side.starts_with("abs(") || !side.ends_with(')')) return {};
-  int depth = 0;
-  for (std::size_t i = 3; i + 1 < side.size(); ++i)
-    if ((depth += side[i] == '(' ? 1 : side[i] == ')' ? -1 : 0) == 0) return {};
-  return side.substr(4, side.size() - 5);
+std::string quotedName(const std::string& what) {
+  const bool isQuoted = what.size() > 2 && what.front() == '\'' && what.find('\'', 1) == what.size() - 1;
+  return "\u201c" + (isQuoted ? what.substr(1, what.size() - 2) : what) + "\u201d";
 }
 
 /// Who is where: "“height”", "above 0.2 m"; without a place where a statement says more than that.
-struct Demand {
+struct DemandWords {
   std::string who, where;
 };
 
-Demand demandOf(const RequirementResult& requirement) {
-  const StatedComparison c = comparisonIn(requirement.statement);
-  const std::string whole = "\u201c" + requirement.name + "\u201d";
-  if (c.sides.size() == 3 && isNumber(c.sides[0]) && !isNumber(c.sides[1]) && isNumber(c.sides[2])) {
-    const bool rises = c.sign == '<';
-    return {nameOf(c.sides[1]), fmt::format("between {} and {}", c.sides[rises ? 0 : 2], c.sides[rises ? 2 : 0])};
-  }
-  if (c.sides.size() != 2 || isNumber(c.sides[0]) == isNumber(c.sides[1])) return {whole, ""};
-  const bool isNameFirst = isNumber(c.sides[1]);
-  const std::string &name = c.sides[isNameFirst ? 0 : 1], &number = c.sides[isNameFirst ? 1 : 0];
-  const bool isAbove = (c.sign == '>') == isNameFirst;
-  const std::string inside = insideOfAbs(name);
-  if (!inside.empty() && !isAbove) return {nameOf(inside), fmt::format("between -{0} and {0}", number)};
-  return {inside.empty() ? nameOf(name) : "the size of " + nameOf(inside), (isAbove ? "above " : "below ") + number};
+DemandWords demandWords(const Results& results, const RequirementResult& requirement) {
+  const std::span<const MarginInfo> margins = marginsOf(results, requirement);
+  if (margins.empty() || !std::ranges::all_of(margins, &MarginInfo::isNumber))
+    return {"\u201c" + requirement.name + "\u201d", ""};
+  const std::string who = quotedName(margins[0].what);
+  if (margins.size() == 1) return {who, (margins[0].isAbove ? "above " : "below ") + margins[0].limitText};
+  const bool isLowerFirst = margins[0].isAbove;
+  return {who, fmt::format("between {} and {}", margins[isLowerFirst ? 0 : 1].limitText,
+                           margins[isLowerFirst ? 1 : 0].limitText)};
 }
 
 bool isProbabilityProved(const Results& results) { return results.interval.present || results.fuzzy.present; }
@@ -64,7 +44,7 @@ bool isProbabilityProved(const Results& results) { return results.interval.prese
 /// Violated for some values, and met with hardly any probability, proved.
 bool isRarelyMet(const Results& results, const RequirementResult& requirement) {
   constexpr double rare = 0.01;
-  return requirement.word == "partly" && isProbabilityProved(results) && requirement.probabilityUpper <= rare;
+  return requirement.word == Decision::partly && isProbabilityProved(results) && requirement.probabilityUpper <= rare;
 }
 
 std::string rareText(const RequirementResult& requirement) {
@@ -76,7 +56,7 @@ std::string rareText(const RequirementResult& requirement) {
 class Sentence {
  public:
   Sentence(const Results& results, const RequirementResult& requirement)
-      : results_(results), r_(requirement), demand_(demandOf(requirement)) {}
+      : results_(results), r_(requirement), demand_(demandWords(results, requirement)) {}
 
   std::string text() const {
     const std::string words = said();
@@ -86,10 +66,10 @@ class Sentence {
 
  private:
   std::string said() const {
-    if (r_.word == "met")
+    if (r_.word == Decision::met)
       return does(true) + (r_.isAlways ? "" : ", at least once,") + " in every case" + window() + ".";
-    if (r_.word == "violated") return does(true) + " in no case" + window() + "." + violation() + share();
-    if (r_.word == "partly") {
+    if (r_.word == Decision::violated) return does(true) + " in no case" + window() + "." + violation() + share();
+    if (r_.word == Decision::partly) {
       const std::string what = does(false) + window() + ".";
       return (isRarelyMet(results_, r_) ? fmt::format("But for {}, {}", rareText(r_), what)
                                         : "In some cases, " + what + probability()) +
@@ -164,7 +144,7 @@ class Sentence {
     const std::string name = r_.violationSample < 0 ? "" : results_.stochastic.nameOf(r_.violationSample);
     const bool isMissKnown = r_.violationUpper <= 0;
     if (name.empty() && !isMissKnown && !r_.isViolatedBetween) return {};  // it would say nothing
-    std::string text = r_.word == "violated" ? " For example, in " : " In ";
+    std::string text = r_.word == Decision::violated ? " For example, in " : " In ";
     text += name.empty() ? "one case that was found"
             : name.find("corner") != std::string::npos || isAtEnds()
                 ? fmt::format("an extreme combination of the tolerances ({})", name)
@@ -183,14 +163,14 @@ class Sentence {
     if (r_.samples == 0) return {};
     if (r_.violating == 0) return fmt::format(" None of {} simulated cases was seen to miss it.", r_.samples);
     return fmt::format(" {} of {} simulated cases {}.", r_.violating, r_.samples,
-                       !r_.isAlways                                      ? "were not seen to meet it"
-                       : r_.word == "open" && !r_.isViolatedInSimulation ? "seem to miss it"
-                                                                         : "miss it");
+                       !r_.isAlways                                              ? "were not seen to meet it"
+                       : r_.word == Decision::open && !r_.isViolatedInSimulation ? "seem to miss it"
+                                                                                 : "miss it");
   }
 
   const Results& results_;
   const RequirementResult& r_;
-  Demand demand_;
+  DemandWords demand_;
 };
 
 constexpr const char* everyCase = "in every case that the stated tolerances allow";
@@ -230,13 +210,10 @@ std::string whereIs(const Results& results, std::size_t output) {
 
 std::string ofRequirements(const Results& results) {
   const std::vector<RequirementResult>& all = results.requirements;
-  const auto count = [&](std::initializer_list<std::string_view> words) {
-    return std::ranges::count_if(
-        all, [&](const RequirementResult& r) { return std::ranges::find(words, r.word) != words.end(); });
-  };
-  const auto met = count({"met"}), violated = count({"violated"}),
+  const auto count = [&](Decision word) { return std::ranges::count(all, word, &RequirementResult::word); };
+  const auto met = count(Decision::met), violated = count(Decision::violated),
              rarely = std::ranges::count_if(all, [&](const RequirementResult&r) { return isRarelyMet(results, r); }),
-             partly = count({"partly"}) - rarely;
+             partly = count(Decision::partly) - rarely;
   const auto number = static_cast<std::ptrdiff_t>(all.size());
   const auto simulated =
       std::ranges::count_if(all, [](const RequirementResult& r) { return r.isViolatedInSimulation; });
@@ -289,13 +266,13 @@ std::vector<std::string> plainRequirements(const Results& results) {
 }
 
 std::string plainSummary(const Results& results, const Verdict& verdict, std::size_t output) {
-  if (verdict.word == "outside")
+  if (verdict.word == Agreement::outside)
     return "These results contradict each other: simulated cases leave what was computed as certain. Do not rely on "
            "them.";
   std::string text = !results.requirements.empty()     ? ofRequirements(results)
                      : output < results.outputs.size() ? whereIs(results, output)
                                                        : "Nothing was computed.";
-  if (verdict.word == "unresolved")
+  if (verdict.word == Agreement::unresolved)
     text += " Whether all simulated cases agree with this could not be decided: treat it with caution.";
   return text + ofEnd(results, verdict);
 }

@@ -9,8 +9,6 @@
 #include <numeric>
 #include <optional>
 
-#include "mechanics/description/units.hpp"
-#include "mechanics/description/written_units.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/results/instants.hpp"
 #include "studies/told.hpp"
@@ -20,15 +18,6 @@ namespace gamut {
 namespace {
 
 constexpr std::size_t mostShown = 200;  // on a page; some 300 kB
-
-/// The unit of the first limit that has one, "deg" of "always -5 deg < angle < 5 deg", if its dimension is that of
-/// `unit`; else `unit`.
-std::string statedUnit(const std::string& statement, const std::string& unit) {
-  for (const std::string& side : comparisonIn(statement).sides)
-    if (const std::string stated = unitBehindNumber(side); !stated.empty() && dimensionOf(stated) == dimensionOf(unit))
-      return stated;
-  return unit;
-}
 
 /// Of a text without a number 0, of one too small for a double what is left of it.
 double numberIn(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
@@ -64,12 +53,12 @@ class RequirementWording {
   RequirementWords words() const {
     return {r_.name,
             r_.statement + window(),
-            r_.isViolatedInSimulation ? "simulated" : r_.word,
-            r_.isViolatedInSimulation ? "violated in simulation, not proved"
-            : r_.word == "met"        ? "met"
-            : r_.word == "violated"   ? "violated"
-            : r_.word == "partly"     ? "violated for some values"
-                                      : open(),
+            r_.isViolatedInSimulation ? "simulated" : std::string(wordOf(r_.word)),
+            r_.isViolatedInSimulation       ? "violated in simulation, not proved"
+            : r_.word == Decision::met      ? "met"
+            : r_.word == Decision::violated ? "violated"
+            : r_.word == Decision::partly   ? "violated for some values"
+                                            : open(),
             guaranteed(),
             probable(),
             results_.fuzzy.present ? possible() : "",
@@ -91,17 +80,17 @@ class RequirementWording {
   }
 
   std::string guaranteed() const {
-    if (r_.word == "met")
+    if (r_.word == Decision::met)
       return "met for every value" + std::string(results_.horizon == 0 ? ""
                                                  : r_.isAlways         ? ", at every instant"
                                                                        : ", at every instant that counts");
-    if (r_.word == "violated") return "violated for every value" + violation();
-    std::string text = r_.word == "partly"         ? "violated for some values" + violation()
+    if (r_.word == Decision::violated) return "violated for every value" + violation();
+    std::string text = r_.word == Decision::partly ? "violated for some values" + violation()
                        : r_.isViolatedInSimulation ? "not proved, but violated in simulation" + simulation()
                                                    : "neither proved nor refuted";
-    if (r_.word == "open" && !r_.why.empty()) text += ": " + r_.why;
-    if (r_.word == "open" && !r_.advice.empty()) text += fmt::format(" (what may help: {})", r_.advice);
-    if (r_.word == "open" && r_.metUntil > r_.from && r_.metUntil < r_.until)
+    if (r_.word == Decision::open && !r_.why.empty()) text += ": " + r_.why;
+    if (r_.word == Decision::open && !r_.advice.empty()) text += fmt::format(" (what may help: {})", r_.advice);
+    if (r_.word == Decision::open && r_.metUntil > r_.from && r_.metUntil < r_.until)
       text += fmt::format("; met until {} of {}", reachedText(r_.metUntil), timeText(r_.until));
     if (r_.factor > 0)
       text += fmt::format("; met where all deviate by up to {} of what is stated", percentText(r_.factor));
@@ -147,7 +136,7 @@ class RequirementWording {
     const std::string proved = rangeOfShare(r_.probabilityLower, r_.probabilityUpper);
     if (isProved && proved == nothing)
       parts.push_back("nothing is proved of the probability" +
-                      (r_.word == "partly" && !r_.why.empty() ? ": " + r_.why : ""));
+                      (r_.word == Decision::partly && !r_.why.empty() ? ": " + r_.why : ""));
     else if (isProved)
       parts.push_back(fmt::format("met with a probability of {}, proved", proved));
     if (r_.samples > 0) {
@@ -191,13 +180,13 @@ class RequirementWording {
 /// In the margin's unit, and in that in which the limit is stated, if that is another: "0.25 rad (14.3 deg)".
 std::string missText(const Results& results, const RequirementResult& requirement, double miss) {
   const std::string& unit = results.outputs[requirement.margin].unit;
-  const std::string stated = statedUnit(requirement.statement, unit);
   const double size = motionSize(results, requirement.margin);
   const std::string text = inUnit(tellingText(miss, size, 3), unit);
-  if (stated == unit || isLittle(miss, size)) return text;
-  const double scale = nearest(parseAmount("1 " + stated)) / nearest(parseAmount("1 " + unit));
-  if (scale == 1) return text;  // "°" and "deg"
-  return fmt::format("{} ({})", text, inUnit(numberText(miss / scale, 3), stated));
+  if (isLittle(miss, size)) return text;
+  for (const MarginInfo& margin : marginsOf(results, requirement))
+    if (const Told stated(unit, margin.unit); stated.of(1.0) != 1)  // not "°" beside "deg"
+      return fmt::format("{} ({})", text, inUnit(numberText(stated.of(miss), 3), stated.unit()));
+  return text;
 }
 
 /// "All 3 requirements are", "The requirement is".
@@ -208,31 +197,10 @@ std::string allOf(std::size_t count) {
 }
 
 bool isViolated(const RequirementResult& requirement) {
-  return requirement.word == "violated" || requirement.word == "partly";
+  return requirement.word == Decision::violated || requirement.word == Decision::partly;
 }
 
 }  // namespace
-
-StatedComparison comparisonIn(const std::string& statement) {
-  StatedComparison comparison{{""}, 0};
-  int depth = 0;
-  bool isQuoted = false;
-  for (const char c : statement.substr(statement.find(' ') + 1)) {  // behind "always" or "eventually"
-    if (c == '\'') isQuoted = !isQuoted;
-    if (!isQuoted) depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-    if (!isQuoted && depth == 0 && (c == '<' || c == '>')) {
-      if (comparison.sign == 0) comparison.sign = c;
-      comparison.sides.emplace_back();
-    } else if (isQuoted || c != '=') {
-      comparison.sides.back() += c;
-    }
-  }
-  for (std::string& side : comparison.sides) {
-    const auto first = side.find_first_not_of(" \t\n"), last = side.find_last_not_of(" \t\n");
-    side = first == std::string::npos ? "" : side.substr(first, last - first + 1);
-  }
-  return comparison;
-}
 
 bool variesInTime(const UncertainInfo& quantity) { return quantity.distribution.starts_with("varies"); }
 
@@ -246,7 +214,7 @@ std::string sampledMissOf(const Results& results, const RequirementResult& requi
 
 std::string estimateOf(const RequirementResult& requirement) {
   const RequirementEstimate& of = requirement.estimate;
-  const bool isOpen = requirement.word == "open" || requirement.word == "partly";
+  const bool isOpen = requirement.word == Decision::open || requirement.word == Decision::partly;
   if (!isOpen || of.samples == 0 || std::isnan(of.lower)) return {};
   constexpr int digits = 5;
   const auto [lower, upper] = outwardText(of.lower, of.upper, digits);
@@ -265,7 +233,10 @@ std::vector<RequirementWords> wordsOfRequirements(const Results& results) {
 std::vector<std::size_t> shownRequirements(const Results& results) {
   const auto rank = [&](std::size_t r) {
     const RequirementResult& requirement = results.requirements[r];
-    return isViolated(requirement) ? 0 : requirement.isViolatedInSimulation ? 1 : requirement.word == "met" ? 3 : 2;
+    return isViolated(requirement)              ? 0
+           : requirement.isViolatedInSimulation ? 1
+           : requirement.word == Decision::met  ? 3
+                                                : 2;
   };
   std::vector<std::size_t> shown(results.requirements.size());
   std::iota(shown.begin(), shown.end(), std::size_t{0});
@@ -283,8 +254,9 @@ std::string unshownRequirements(const Results& results) {
 
 std::string wordOfRequirements(const Results& results) {
   if (std::ranges::any_of(results.requirements, isViolated)) return "violated";
-  return std::ranges::all_of(results.requirements, [](const RequirementResult& r) { return r.word == "met"; }) ? "met"
-                                                                                                               : "open";
+  return std::ranges::all_of(results.requirements, [](const RequirementResult& r) { return r.word == Decision::met; })
+             ? "met"
+             : "open";
 }
 
 std::string sentenceOfRequirements(const Results& results) {
@@ -293,9 +265,9 @@ std::string sentenceOfRequirements(const Results& results) {
   const auto number = [&](auto is) {
     return static_cast<std::size_t>(std::ranges::count_if(results.requirements, is));
   };
-  const std::size_t met = number([](const RequirementResult&r) { return r.word == "met"; }),
+  const std::size_t met = number([](const RequirementResult&r) { return r.word == Decision::met; }),
                     violated = number(isViolated),
-                    certainly = number([](const RequirementResult&r) { return r.word == "violated"; }),
+                    certainly = number([](const RequirementResult&r) { return r.word == Decision::violated; }),
                     simulated = number([](const RequirementResult&r) { return r.isViolatedInSimulation; });
   if (met == count) return allOf(count) + " met, whatever the uncertain quantities are.";
   std::vector<std::string> parts;

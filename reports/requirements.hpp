@@ -27,14 +27,6 @@ std::vector<std::size_t> shownRequirements(const Results& results);
 /// "and 35 more in the results file"; empty where all are shown.
 std::string unshownRequirements(const Results& results);
 
-/// What a statement compares, in turn, and the first sign between: '<' or '>'.
-struct StatedComparison {
-  std::vector<std::string> sides;
-  char sign = 0;
-};
-
-StatedComparison comparisonIn(const std::string& statement);
-
 /// By how much the violation that is known misses the limit, in the margin's unit and in that in which the limit is
 /// stated: "0.273 mm", "0.25 rad (14.3 deg)".
 std::string missOf(const Results& results, const RequirementResult& requirement);

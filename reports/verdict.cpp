@@ -69,7 +69,7 @@ class Wording {
     verdict_.sentence = sentence();
     if (results_.comparison.present && results_.comparison.verdict != verdict_.word)
       verdict_.sentence += fmt::format(" (The results were stored as \"{}\"; their own numbers say \"{}\".)",
-                                       results_.comparison.verdict, verdict_.word);
+                                       wordOf(results_.comparison.verdict), wordOf(verdict_.word));
     return std::move(verdict_);
   }
 
@@ -107,7 +107,7 @@ class Wording {
 
   void noteUnlikely() {
     const Excursion& unlikely = verdict_.unlikely;
-    if (unlikely.distance == 0 || verdict_.word == "outside") return;
+    if (unlikely.distance == 0 || verdict_.word == Agreement::outside) return;
     note(
         fmt::format("The samples' shares leave the proved bounds of probability by up to {} in {}{}, more than they do "
                     "in 95 of 100 runs: bad luck, if another seed does not show it.",
@@ -343,10 +343,10 @@ class Wording {
   }
 
   std::string sentence() const {
-    if (verdict_.word == "outside")
+    if (verdict_.word == Agreement::outside)
       return "Samples leave what is guaranteed, " + excursionText() +
              ". That must not be: the guarantee is wrong, or the program that sampled.";
-    if (verdict_.word == "unresolved")
+    if (verdict_.word == Agreement::unresolved)
       return "It could not be decided whether every sample stays inside: some seem to lie " + excursionText() +
              ", and their own error may be as large.";
     const std::string nothing = "Nothing could be compared: ";

@@ -32,20 +32,6 @@ std::vector<std::string> freeParameters(const Study& study) {
   return names;
 }
 
-std::vector<std::string> outputQuantities(const Study& study) {
-  std::vector<std::string> quantities;
-  for (const OutputInfo& output : study.outputs) {
-    const bool isQuantity = study.mechanism.isOutputQuantity(output.quantity);
-    const std::string own = isQuantity ? study.mechanism.unitOf(output.quantity)
-                                       : unitOf(study.mechanism.dimensionOf(study.mechanism.parse(output.quantity)));
-    // In the unit that the study states.
-    quantities.push_back(output.unit == own ? output.quantity
-                         : isQuantity       ? fmt::format("'{}'/(1 {})", output.quantity, output.unit)
-                                            : fmt::format("({})/(1 {})", output.quantity, output.unit));
-  }
-  return quantities;
-}
-
 /// What varies in time follows a course: swinging once in the study's time at least, and twice as fast as the motion
 /// itself, or sixteen times in all, at most.
 void takeCourses(const Study& study, Problem& problem) {
@@ -70,7 +56,7 @@ void takeCourses(const Study& study, Problem& problem) {
 
 /// y = g(p): outputs of the assembly at the configuration p (states, then free parameters).
 Program recordConfiguration(const Study& study, std::size_t states, int numbers) {
-  const std::vector<std::string> outputs = outputQuantities(study);
+  const std::vector<Expression> outputs = outputExpressions(study);
   return record(0, numbers, static_cast<int>(outputs.size()), [&](auto, const auto&, const auto& p, auto& y) {
     const std::span<const Recorded> values(p);
     Assembly<Recorded> assembly(study.mechanism, freeParameters(study), values.subspan(states));
@@ -82,7 +68,7 @@ Program recordConfiguration(const Study& study, std::size_t states, int numbers)
 
 /// y = g(t, p) where everything is driven.
 Program recordGivenMotion(const Study& study, const std::vector<std::string>& parameters) {
-  const std::vector<std::string> outputs = outputQuantities(study);
+  const std::vector<Expression> outputs = outputExpressions(study);
   return record(1, static_cast<int>(parameters.size()), static_cast<int>(outputs.size()),
                 [&](auto t, const auto&, const auto& p, auto& y) {
                   Assembly<Recorded> assembly(study.mechanism, parameters, p);
@@ -118,7 +104,7 @@ void recordAnalysis(Study& study, const std::vector<std::string>& parameters) {
   } else if (study.analysis != Study::Analysis::kinematics) {
     motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
     motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
-    motion.g = recordOutputs(study.mechanism, parameters, outputQuantities(study));
+    motion.g = recordOutputs(study.mechanism, parameters, outputExpressions(study));
     motion.rests = restsOf(study.mechanism);
   } else {
     const std::size_t states = study.mechanism.stateNames().size();
@@ -129,6 +115,17 @@ void recordAnalysis(Study& study, const std::vector<std::string>& parameters) {
 }
 
 }  // namespace
+
+std::vector<Expression> outputExpressions(const Study& study) {
+  std::vector<Expression> expressions;
+  for (const WantedOutput& output : study.outputs) expressions.push_back(output.inUnit());
+  return expressions;
+}
+
+Expression WantedOutput::inUnit() const {
+  const Amount one = oneOfUnit(unit);
+  return one.value == 1 && one.piPower == 0 ? expression : expression / Expression(one);
+}
 
 Program alongCourses(const Problem& problem, const Program& program) {
   return problem.courses.empty() ? program : withCourses(program, problem.courses, problem.slowest, problem.fastest);
@@ -160,7 +157,6 @@ Problem makeProblem(const Study& study) {
   const std::vector<std::string> names = mechanism.stateNames();
   problem.states = names.size();
   problem.freeParameters = freeParameters(study);
-  problem.outputs = outputQuantities(study);
   problem.motion.motion = study.motion;
   const std::vector<bool> isDifference = mechanism.startsWith(problem.freeParameters);
   for (const Expression& initial : mechanism.initialState())

@@ -17,10 +17,9 @@ namespace gamut {
 struct Problem {
   std::size_t states = 0;
   std::vector<std::string> freeParameters;
-  Box box;                    ///< initial values, then free parameters; uncertain ones have their ranges
-  std::vector<double> alpha;  ///< membership levels, 0 first; empty unless alpha-cuts are asked for
-  std::vector<Box> levels;    ///< the box with the alpha-cuts of the uncertain quantities, one a level
-  std::vector<std::string> outputs;
+  Box box;                                ///< initial values, then free parameters; uncertain ones have their ranges
+  std::vector<double> alpha;              ///< membership levels, 0 first; empty unless alpha-cuts are asked for
+  std::vector<Box> levels;                ///< the box with the alpha-cuts of the uncertain quantities, one a level
   std::vector<VaryingParameter> varying;  ///< free parameters that vary in time
   std::vector<VaryingQuantity> courses;   ///< what of them the samples take, turning no slower and no faster than so
   double slowest = 0, fastest = 0;        ///< rad/s
@@ -33,6 +32,9 @@ struct Problem {
 void recordPrograms(Study& study);
 
 Problem makeProblem(const Study& study);
+
+/// What is looked at, each in its unit.
+std::vector<Expression> outputExpressions(const Study& study);
 
 /// A program of states and free parameters as samples follow it: what varies in time takes its course.
 Program alongCourses(const Problem& problem, const Program& program);

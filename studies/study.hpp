@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,7 @@
 #include "analyses/uncertainty.hpp"
 #include "mechanics/description/mechanism.hpp"
 #include "mechanics/element_types.hpp"
+#include "studies/demand.hpp"
 #include "studies/named_texts.hpp"
 #include "studies/results/results.hpp"
 #include "studies/watch.hpp"
@@ -39,14 +41,23 @@ struct UncertainQuantity {
   std::string told = {};                                  ///< unit in which it is stated; empty: the SI unit
 };
 
-/// What the motion is to keep: all margins above zero, always or once at least in a window of time.
+/// An output as it is asked for.
+struct WantedOutput : OutputInfo {
+  Expression expression = 0.0;  ///< in SI units
+
+  Expression inUnit() const;
+};
+
+/// What the motion is to keep. The margins of its terms are outputs, one behind the other.
 struct Requirement {
   std::string name;
-  std::string statement;             ///< "always tip.position.z > 0.2 m"
-  bool isAlways = true;              ///< otherwise eventually
-  double from = 0, until = 0;        ///< s: output times, both included
-  std::vector<std::size_t> margins;  ///< numbers of outputs
-  std::vector<char> isMetAtZero;     ///< whether zero is enough, one a margin
+  std::string statement;  ///< "always tip.position.z > 0.2 m"
+  Demand demand;
+  std::size_t firstMargin = 0;  ///< number of the output that is the first term's margin
+
+  std::size_t margins() const { return demand.terms.size(); }
+  /// Numbers of the outputs that its margins are.
+  auto marginOutputs() const { return std::views::iota(firstMargin, firstMargin + margins()); }
 };
 
 /// Of which output times probabilities of the outputs' values are bounded, and how closely.
@@ -86,8 +97,8 @@ struct Study {
   Mechanism mechanism;
   std::map<std::string, std::string, std::less<>> unitsOfMasses;  ///< as they are stated, by element; where they are
   std::vector<UncertainQuantity> uncertain;
-  QuantityDependence dependence;    ///< of these
-  std::vector<OutputInfo> outputs;  ///< those of the requirements behind all others
+  QuantityDependence dependence;      ///< of these
+  std::vector<WantedOutput> outputs;  ///< those of the requirements behind all others
   std::vector<Requirement> requirements;
   DistributionPlan distribution;
   bool derivatives = false;  ///< whether derivatives of outputs by the uncertain quantities are enclosed

@@ -73,7 +73,7 @@ Json requirementsArray(const Results& results) {
          {"statement", r.statement},
          {"from", r.from},
          {"until", r.until},
-         {"guaranteed", r.word},
+         {"guaranteed", wordOf(r.word)},
          {"why", textOrNull(r.why)},
          {"advice", textOrNull(r.advice)},
          {"met_until", number(r.metUntil)},
@@ -344,6 +344,7 @@ std::string contentOf(const Field& field, const Extents& extents) {
   return std::visit(Visitor{[](double* x) { return std::isnan(*x) ? std::string() : fmt::format("{:.12g}", *x); },
                             [](std::int64_t* x) { return fmt::format("{}", *x); },
                             [](std::uint64_t* x) { return fmt::format("{}", *x); }, [](std::string* x) { return *x; },
+                            [](Choice x) { return x.word(); },
                             [](WholeText x) { return countText(static_cast<long long>(x.text->size()), "byte"); },
                             [&](auto* values) {
                               if constexpr (requires { values->empty(); })
@@ -556,21 +557,16 @@ std::string textSummary(const Results& results) {
     isAnything = true;
     if (cpu >= leastCpuTold) costs.push_back(fmt::format("{} {}", what, cpuText(cpu)));
   };
-  for (const Answer* answer : results.answers())
-    if (answer->present) spend(answer->title(), answer->cpu);
+  for (const Part* part : results.parts())
+    if (part->present) spend(part->title(), part->cpu);
   for (const CostInfo& cost : results.costs) spend(cost.what, cost.cpu);
   if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
   text += statisticsText(results);
   text += transformationText(results);
-  if (const DistributionResult& d = results.distribution; d.present) {
-    text += probabilitiesText(results);
-    spend("probabilities", d.cpu);
-  }
-  if (const DerivativeResult& d = results.derivatives; d.present) {
+  if (results.distribution.present) text += probabilitiesText(results);
+  if (const DerivativeResult& d = results.derivatives; d.present)
     text +=
         fmt::format("  derivatives: enclosed up to {}{}\n", reachedText(d.reached), d.why.empty() ? "" : ": " + d.why);
-    spend("derivatives", d.cpu);
-  }
   const std::string spent = spentText(results);
   if (!isAnything || (costs.empty() && spent.empty())) return text;
   return text +

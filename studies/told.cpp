@@ -10,10 +10,10 @@ namespace gamut {
 Told::Told(const std::string& own, const std::string& stated) : unit_(own), one_(1.0), isOwn_(true) {
   if (stated.empty() || stated == own) return;
   try {
-    const Amount one = parseAmount("1 " + stated);
+    const Amount one = oneOfUnit(stated);
     if (!one.hasUnit || one.isRelative || !isCompatible(one.dimension, dimensionOf(own))) return;
     unit_ = stated;
-    one_ = enclose(one);
+    one_ = enclose(one) / enclose(oneOfUnit(own));
     isOwn_ = false;
   } catch (const UnitError&) {  // of a file that another build wrote
   }

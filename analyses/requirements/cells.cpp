@@ -107,9 +107,9 @@ Interval Cells::rangeOf(const Cell::Local& local, std::size_t margin) const {
 Cells::Outcome Cells::outcomeOf(const std::vector<Interval>& margins) const {
   bool isMet = true;
   for (std::size_t i = 0; i < margins.size(); ++i) {
-    const bool atZero = question_.isMetAtZero[i] != 0;
-    if (atZero ? margins[i].upper() < 0 : margins[i].upper() <= 0) return Outcome::violated;
-    isMet = isMet && (atZero ? margins[i].lower() >= 0 : margins[i].lower() > 0);
+    const bool isStrict = question_.isStrict[i] != 0;
+    if (isStrict ? margins[i].upper() <= 0 : margins[i].upper() < 0) return Outcome::violated;
+    isMet = isMet && (isStrict ? margins[i].lower() > 0 : margins[i].lower() >= 0);
   }
   return isMet ? Outcome::met : Outcome::open;
 }

@@ -21,7 +21,7 @@ struct CellQuestion {
 
   When when = When::always;
   std::vector<int> margins;         ///< numbers of outputs in the models: met at a time where all are above zero,
-  std::vector<char> isMetAtZero;    ///< or zero where this says so; one a margin
+  std::vector<char> isStrict;       ///< or not below zero, where this is 0; one a margin
   std::size_t from = 0, until = 0;  ///< the window: output times, both included
   std::vector<int> besides = {};    ///< symbols of no quantity: what is said holds for all that they may be
 };

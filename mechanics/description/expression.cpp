@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,11 +17,10 @@ Expression::Expression(const Interval& value) : terms_{{Operation::constant}}, c
 Expression::Expression(const Amount& value) : terms_{{Operation::constant}}, constants_{{enclose(value), value}} {}
 
 Expression Expression::named(const std::string& name, const Interval& factor) {
-  Expression result(factor);
+  Expression result;
   result.names_.push_back(name);
   result.terms_.push_back({Operation::name});
-  result.terms_.push_back({Operation::multiply});
-  return result;
+  return Expression(factor) * result;
 }
 
 Expression& Expression::append(const Expression& other) {
@@ -55,6 +55,11 @@ Expression operator+(const Expression& a, const Expression& b) {
 
 Expression operator-(const Expression& a, const Expression& b) {
   return b.isExactly(0) ? a : Expression(a).append(b).append(Expression::Operation::subtract);
+}
+
+Expression operator-(const Expression& a) {
+  if (const std::optional<Amount> amount = a.amount()) return Expression(negative(*amount));
+  return Expression(a).append(Expression::Operation::negate);
 }
 
 Expression operator*(const Expression& a, const Expression& b) {
@@ -210,6 +215,110 @@ std::optional<Amount> Expression::amount() const {
   return terms_.size() == 1 && terms_[0].operation == Operation::constant ? constants_[0].exact : std::nullopt;
 }
 
+std::optional<Expression> Expression::insideOfAbs() const {
+  if (terms_.back().operation != Operation::abs) return std::nullopt;
+  Expression inside = *this;
+  inside.terms_.pop_back();
+  return inside;
+}
+
+Expression Expression::with(const std::function<const Expression*(const std::string& name)>& instead) const {
+  Expression result;
+  for (const Term& term : terms_) {
+    if (term.operation == Operation::name) {
+      const std::string& name = names_[static_cast<std::size_t>(term.index)];
+      const Expression* other = instead(name);
+      result.append(other != nullptr ? *other : named(name));
+    } else if (term.operation == Operation::constant) {
+      result.terms_.push_back({term.operation, static_cast<int>(result.constants_.size()), term.column});
+      result.constants_.push_back(constants_[static_cast<std::size_t>(term.index)]);
+    } else {
+      result.terms_.push_back(term);
+    }
+  }
+  return result;
+}
+
+bool Expression::holdsAt(std::size_t begin, std::size_t end, const Expression& formula) const {
+  if (end - begin != formula.terms_.size()) return false;
+  return std::equal(formula.terms_.begin(), formula.terms_.end(), terms_.begin() + static_cast<std::ptrdiff_t>(begin),
+                    [&](const Term& theirs, const Term& own) {
+                      if (theirs.operation != own.operation) return false;
+                      const auto i = static_cast<std::size_t>(own.index), j = static_cast<std::size_t>(theirs.index);
+                      if (own.operation == Operation::name) return names_[i] == formula.names_[j];
+                      if (own.operation == Operation::constant)
+                        return isEqual(constants_[i].enclosure, formula.constants_[j].enclosure);
+                      return own.operation != Operation::power || i == j;
+                    });
+}
+
+std::vector<Expression> Expression::parts() const {
+  std::vector<Expression> found;
+  std::vector<std::size_t> begins;  // of the operands at hand
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const Operation operation = terms_[i].operation;
+    const bool isLeaf = operation == Operation::constant || operation == Operation::name;
+    begins.resize(begins.size() - static_cast<std::size_t>(isLeaf ? 0 : operands(operation) - 1));
+    if (isLeaf) begins.push_back(i);
+    const auto first = terms_.begin() + static_cast<std::ptrdiff_t>(begins.back());
+    Expression part;
+    part.constants_ = constants_;
+    part.names_ = names_;
+    part.terms_.assign(first, terms_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    const auto isName = [](const Term& term) { return term.operation == Operation::name; };
+    if (std::ranges::any_of(part.terms_, isName)) found.push_back(std::move(part));
+  }
+  std::ranges::stable_sort(found, std::greater(), [](const Expression& part) { return part.terms_.size(); });
+  return found;
+}
+
+std::optional<Expression::Affine> Expression::affineIn(const Expression& part) const {
+  struct Operand {
+    std::size_t begin;
+    std::optional<Affine> form;
+  };
+  const Interval zero(0.0);
+  const auto isNumber = [&](const std::optional<Affine>& form) { return form && isEqual(form->factor, zero); };
+  const auto combined = [&](Operation operation, const std::optional<Affine>& a,
+                            const std::optional<Affine>& b) -> std::optional<Affine> {
+    if (!a || !b) return std::nullopt;
+    switch (operation) {
+      case Operation::add:
+        return Affine{a->factor + b->factor, a->offset + b->offset};
+      case Operation::subtract:
+        return Affine{a->factor - b->factor, a->offset - b->offset};
+      case Operation::multiply:
+        if (isNumber(a)) return Affine{a->offset * b->factor, a->offset * b->offset};
+        if (isNumber(b)) return Affine{a->factor * b->offset, a->offset * b->offset};
+        return std::nullopt;
+      case Operation::divide:
+        if (!isNumber(b) || contains(b->offset, 0.0)) return std::nullopt;
+        return Affine{a->factor / b->offset, a->offset / b->offset};
+      default:
+        return std::nullopt;
+    }
+  };
+  std::vector<Operand> stack;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const Operation operation = terms_[i].operation;
+    Operand whole{i, std::nullopt};
+    if (operation == Operation::constant) {
+      whole.form = Affine{zero, constants_[static_cast<std::size_t>(terms_[i].index)].enclosure};
+    } else if (operation != Operation::name) {
+      const auto first = stack.end() - operands(operation);
+      whole.begin = first->begin;
+      whole.form = operation == Operation::negate ? combined(Operation::subtract, Affine{zero, zero}, first->form)
+                   : operands(operation) == 2     ? combined(operation, first->form, stack.back().form)
+                                                  : std::nullopt;
+      stack.erase(first, stack.end());
+    }
+    if (holdsAt(whole.begin, i + 1, part)) whole.form = Affine{Interval(1.0), zero};
+    stack.push_back(whole);
+  }
+  const std::optional<Affine>& form = stack.back().form;
+  return form && !contains(form->factor, 0.0) ? form : std::nullopt;
+}
+
 Amount parseAmount(std::string_view text) {
   const Expression expression = Expression::parse(text, [](std::string_view) { return false; });
   if (!expression.isConstant())
@@ -219,10 +328,12 @@ Amount parseAmount(std::string_view text) {
   throw UnitError(fmt::format("'{}' is no rational number times a power of pi; expected one that is", text));
 }
 
-Dimension dimensionOf(std::string_view unit) {
-  if (unit.empty()) return {};
+Amount oneOfUnit(std::string_view unit) {
+  if (unit.empty()) return {1, 0, {}};
   const bool hasNumber = std::isdigit(static_cast<unsigned char>(unit.front())) != 0;
-  return parseAmount(hasNumber ? std::string(unit) : "1 " + std::string(unit)).dimension;
+  return parseAmount(hasNumber ? std::string(unit) : "1 " + std::string(unit));
 }
+
+Dimension dimensionOf(std::string_view unit) { return oneOfUnit(unit).dimension; }
 
 }  // namespace gamut

@@ -45,6 +45,7 @@ class Expression {
   // Formulas of formulas; what is known to be zero or one is left out.
   friend Expression operator+(const Expression& a, const Expression& b);
   friend Expression operator-(const Expression& a, const Expression& b);
+  friend Expression operator-(const Expression& a);
   friend Expression operator*(const Expression& a, const Expression& b);
   friend Expression operator/(const Expression& a, const Expression& b);
   friend Expression sqrt(const Expression& a);
@@ -59,6 +60,19 @@ class Expression {
 
   /// The whole as an exact number, if it is one.
   std::optional<Amount> amount() const;
+  /// x, if the whole is abs(x).
+  std::optional<Expression> insideOfAbs() const;
+  /// With formulas in the place of names; null: the name stays.
+  Expression with(const std::function<const Expression*(const std::string& name)>& instead) const;
+
+  struct Affine {
+    Interval factor, offset;
+  };
+  /// factor and offset of *this = factor part + offset, in SI units, if its form says so: wherever names are within
+  /// `part` alone, and the factor is not 0.
+  std::optional<Affine> affineIn(const Expression& part) const;
+  /// The formulas within it that are no numbers, itself among them, the longest first.
+  std::vector<Expression> parts() const;
 
   using DimensionOf = std::function<Dimension(const std::string& name)>;
   /// The dimension of the whole. Radians count as 1 and are kept for display. Throws UnitError where terms do not fit
@@ -125,6 +139,8 @@ class Expression {
   Expression& append(const Expression& other);
   Expression& append(Operation operation);
   bool isExactly(double value) const;
+  /// Whether these of its terms are the formula.
+  bool holdsAt(std::size_t begin, std::size_t end, const Expression& formula) const;
   static int operands(Operation operation) {
     if (operation == Operation::where) return 3;
     return (operation >= Operation::add && operation <= Operation::divide) || operation >= Operation::atan2 ? 2 : 1;

@@ -150,10 +150,6 @@ class ExpressionParser {
     pop();
     pushConstant(result, column);
   }
-  static Amount negative(Amount amount) {
-    amount.value = -amount.value;
-    return amount;
-  }
 
   void readSum() {
     const int before = depth_++;

@@ -356,6 +356,11 @@ Amount power(const Amount& a, int exponent) {
   return result;
 }
 
+Amount negative(Amount a) {
+  a.value = -a.value;
+  return a;
+}
+
 std::optional<Amount> sum(const Amount& a, const Amount& b) {
   const bool isAlike = a.dimension == b.dimension && a.hasUnit == b.hasUnit && a.isRelative == b.isRelative;
   if (!isAlike || a.piPower != b.piPower) return std::nullopt;

@@ -65,6 +65,9 @@ struct Amount {
 /// Reads an amount: an expression without names. Throws UnitError, also for one that is not rational * pi^k.
 Amount parseAmount(std::string_view text);
 
+/// One of a unit: "kg m^2", "1/s"; of "" and "1" the number. Throws UnitError.
+Amount oneOfUnit(std::string_view unit);
+
 /// One of the unit with this symbol: "mm", "deg", "%". Null if there is none.
 const Amount* unitNamed(std::string_view symbol);
 /// Whether a parameter or a state may have the name all the same, which then is meant: T, mA, ns; but not s, kg, mm.
@@ -84,6 +87,7 @@ std::string unitsApart(const std::string& word);
 Amount product(const Amount& a, const Amount& b);
 Amount quotient(const Amount& a, const Amount& b);
 Amount power(const Amount& a, int exponent);
+Amount negative(Amount a);
 /// a + b, if both are rationals times the same power of pi and have one dimension.
 std::optional<Amount> sum(const Amount& a, const Amount& b);
 

@@ -63,13 +63,10 @@ std::string figuresTable(const Results& results, const Verdict& verdict, std::si
 
 std::string costTable(const Results& results) {
   TableText table("Cost", {"analysis", "CPU time", "amount"});
-  for (const Answer* answer : results.answers())
-    if (answer->present) table.row(answer->title(), {cpuText(answer->cpu), answer->amount()});
+  for (const Part* part : results.parts())
+    if (part->present && part->cpu > 0) table.row(part->title(), {cpuText(part->cpu), part->amount()});
   for (const CostInfo& cost : results.costs)
     if (cost.cpu >= leastCpuTold) table.row(cost.what, {cpuText(cost.cpu), ""});
-  if (const DistributionResult& d = results.distribution; d.present)
-    table.row("probabilities", {cpuText(d.cpu), "at " + countText(static_cast<long long>(d.time.size()), "time")});
-  if (const DerivativeResult& d = results.derivatives; d.present) table.row("derivatives", {cpuText(d.cpu), ""});
   if (std::isfinite(results.limits.time)) {
     const Limits& limits = results.limits;
     const auto gigabytes = [](double bytes) { return numberText(bytes / 1e9, 3) + " GB"; };

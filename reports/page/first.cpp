@@ -71,7 +71,7 @@ std::string requirementList(const Results& results, const Verdict& verdict) {
   std::string html = "<ul class=\"requirements\" aria-label=\"Requirements\">\n";
   for (const std::size_t r : shownRequirements(results))
     html +=
-        verdict.word == "outside"
+        verdict.word == Agreement::outside
             ? fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name))
             : fmt::format("<li class=\"{}\"><b>{}</b> <span>{}</span> {}</li>\n", words[r].word,
                           words[r].word == "partly"      ? "violated"
@@ -83,11 +83,12 @@ std::string requirementList(const Results& results, const Verdict& verdict) {
 }
 
 std::string verdictCard(const Verdict& verdict) {
-  const std::string word = verdict.gap == Finding::Gap::noAnswers ? "not compared" : verdict.word;
+  const std::string_view word = wordOf(verdict.word),
+                         shown = verdict.gap == Finding::Gap::noAnswers ? "not compared" : word;
   return fmt::format(
       "<section class=\"verdict {}\" aria-label=\"Verdict\">\n<p class=\"sentence\"><b class=\"word\">{}</b> {}</p>\n"
       "{}</section>\n",
-      verdict.word, word, escapeHtml(verdict.sentence), notesList(verdict));
+      word, shown, escapeHtml(verdict.sentence), notesList(verdict));
 }
 
 /// What every output does over the whole motion: the limits that it keeps, and when it comes there.
@@ -287,7 +288,8 @@ std::string ranking(const Results& results, std::size_t output) {
 }
 
 std::string tone(const Results& results, const Verdict& verdict) {
-  if (verdict.word == "outside" || verdict.word == "unresolved") return verdict.word;
+  if (verdict.word == Agreement::outside || verdict.word == Agreement::unresolved)
+    return std::string(wordOf(verdict.word));
   return results.requirements.empty() ? "plain" : wordOfRequirements(results);
 }
 
@@ -303,7 +305,7 @@ std::string firstSection(const Report& report) {
                      tone(results, report.verdict),
                      escapeHtml(plainSummary(results, report.verdict, foremost.output))) +
          requirementList(results, report.verdict) + verdictCard(report.verdict) +
-         (report.verdict.word == "outside" ? "" : rangesTable(results)) +
+         (report.verdict.word == Agreement::outside ? "" : rangesTable(results)) +
          (isThere ? plotOfForemost(results, foremost) + ranking(results, foremost.output) : "") + "</section>\n";
 }
 

@@ -1,4 +1,4 @@
-// Limits that requirements set to outputs: known where a margin is an output's distance from a number.
+// Limits that requirements set to outputs.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,6 @@
 
 namespace gamut {
 
-/// margin = value of the output - limit, or limit - value; where the margin is in rad and the output a number of
-/// degrees, the margin is so many rad.
 struct Limit {
   std::size_t requirement = 0, margin = 0;  ///< numbers of the requirement, and of the output that is its margin
   std::size_t output = 0;                   ///< that the limit is of: the margin itself, above zero, if no other fits

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
-#include <string_view>
 
 #include "studies/comparing/demands.hpp"
 #include "studies/results/verdict.hpp"
@@ -112,25 +110,22 @@ class Finder {
   const Shared& shared_;
 };
 
-std::size_t rankOf(const std::string& word, std::span<const std::string_view> fromBest) {
-  return static_cast<std::size_t>(std::ranges::find(fromBest, word) - fromBest.begin());
+template <class Enum, std::size_t n>
+auto rankOf(Enum word, const std::array<Enum, n>& fromBest) {
+  return std::ranges::find(fromBest, word) - fromBest.begin();
 }
 
-bool isLost(const RequirementChange& change, bool isSameQuestion) {
-  constexpr std::array<std::string_view, 4> fromBest{"met", "open", "partly", "violated"};
-  const bool isUnknownNow = change.word.second == "open" && change.word.first != "open";
-  return rankOf(change.word.second, fromBest) > rankOf(change.word.first, fromBest) || (isSameQuestion && isUnknownNow);
+bool isLost(Decision before, Decision now, bool isSameQuestion) {
+  using enum Decision;
+  constexpr std::array fromBest{met, open, partly, violated};
+  const bool isUnknownNow = now == open && before != open;
+  return rankOf(now, fromBest) > rankOf(before, fromBest) || (isSameQuestion && isUnknownNow);
 }
 
-bool isWorse(const Both<std::string>& verdict) {
-  constexpr std::array<std::string_view, 4> fromBest{"inside", "incomplete", "unresolved", "outside"};
-  return !verdict.first.empty() && !verdict.second.empty() &&
-         rankOf(verdict.second, fromBest) > rankOf(verdict.first, fromBest);
-}
-
-std::string verdictOf(const Results& results) {
-  const Finding found = findVerdict(results);
-  return results.comparison.present ? found.word : "";
+bool isWorse(Agreement before, Agreement now) {
+  using enum Agreement;
+  constexpr std::array fromBest{inside, incomplete, unresolved, outside};
+  return rankOf(now, fromBest) > rankOf(before, fromBest);
 }
 
 }  // namespace
@@ -148,13 +143,18 @@ Changes changesOf(const Results& first, const Results& second, const Shared& sha
                                  {one.why, other.why}});
   for (const auto& [i, j] : shared.requirements) {
     const RequirementResult &one = first.requirements[i], &other = second.requirements[j];
-    RequirementChange change{
-        one.name, isSameDemand(one, other), {one.word, other.word}, {one.met, other.met}, {one.factor, other.factor}};
-    change.isLost = isLost(change, isSameQuestion && change.isSameDemand);
+    RequirementChange change{one.name,
+                             isSameDemand(first, one, second, other),
+                             {std::string(wordOf(one.word)), std::string(wordOf(other.word))},
+                             {one.met, other.met},
+                             {one.factor, other.factor}};
+    change.isLost = isLost(one.word, other.word, isSameQuestion && change.isSameDemand);
     changes.requirements.push_back(std::move(change));
   }
-  changes.verdict = {verdictOf(first), verdictOf(second)};
-  changes.isVerdictWorse = isWorse(changes.verdict);
+  const Agreement before = findVerdict(first).word, now = findVerdict(second).word;
+  if (first.comparison.present) changes.verdict.first = wordOf(before);
+  if (second.comparison.present) changes.verdict.second = wordOf(now);
+  changes.isVerdictWorse = first.comparison.present && second.comparison.present && isWorse(before, now);
   if (first.distribution.present && second.distribution.present)
     changes.gap = {first.distribution.gap, second.distribution.gap};
   changes.samples = {first.stochastic.integrated, second.stochastic.integrated};

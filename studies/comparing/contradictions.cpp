@@ -244,7 +244,7 @@ class ContradictionFinder {
 
   void compareRequirements(const Match& places) {
     const RequirementResult &one = a_.requirements[places.first], &other = b_.requirements[places.second];
-    if (!isSameDemand(one, other)) return;
+    if (!isSameDemand(a_, one, b_, other)) return;
     bool areSame = true;
     for (std::size_t m = 0; m < static_cast<std::size_t>(one.margins); ++m) {
       const auto margin = std::ranges::find_if(shared_.outputs, [&](const Match& output) {

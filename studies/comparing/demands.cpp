@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scalars/interval.hpp"
 #include "studies/words.hpp"
 
@@ -11,17 +13,20 @@ namespace gamut {
 namespace {
 
 bool isMetSomewhere(const RequirementResult& r) { return r.met > 0 || r.factor > 0; }
-bool isViolatedSomewhere(const RequirementResult& r) { return r.word == "partly" || r.violated > 0; }
+bool isViolatedSomewhere(const RequirementResult& r) { return r.word == Decision::partly || r.violated > 0; }
 
-bool isForAll(const RequirementResult& r) { return r.word == "met" || r.word == "violated"; }
+bool isForAll(const RequirementResult& r) { return r.word == Decision::met || r.word == Decision::violated; }
 
 /// Whether all values of `every` show an answer of which `some`, whose values are among them, shows the opposite.
 bool isRefuted(const RequirementResult& every, const RequirementResult& some) {
-  return (every.word == "met" && isViolatedSomewhere(some)) || (every.word == "violated" && isMetSomewhere(some));
+  return (every.word == Decision::met && isViolatedSomewhere(some)) ||
+         (every.word == Decision::violated && isMetSomewhere(some));
 }
 
 std::string answerOf(const RequirementResult& r) {
-  return isForAll(r) ? r.word + " for every value" : isViolatedSomewhere(r) ? "violated for some" : "met for some";
+  return isForAll(r)              ? std::string(wordOf(r.word)) + " for every value"
+         : isViolatedSomewhere(r) ? "violated for some"
+                                  : "met for some";
 }
 
 bool areApart(double lower, double upper, double otherLower, double otherUpper) {
@@ -39,9 +44,14 @@ bool areMoreThanAll(double part, double otherPart) { return part > (Interval(1.0
 
 }  // namespace
 
-bool isSameDemand(const RequirementResult& one, const RequirementResult& other) {
-  return one.statement == other.statement && one.isAlways == other.isAlways && one.from == other.from &&
-         one.until == other.until && one.margins == other.margins && one.metAtZero == other.metAtZero;
+bool isSameDemand(const Results& first, const RequirementResult& one, const Results& second,
+                  const RequirementResult& other) {
+  const auto isSameTerm = [](const MarginInfo& a, const MarginInfo& b) {
+    return a.what == b.what && a.isAbove == b.isAbove && a.limitText == b.limitText && a.isStrict == b.isStrict;
+  };
+  return one.isAlways == other.isAlways && one.from == other.from && one.until == other.until &&
+         one.margins == other.margins &&
+         std::ranges::equal(marginsOf(first, one), marginsOf(second, other), isSameTerm);
 }
 
 std::string oppositionOf(const RequirementResult& one, const RequirementResult& other, const Relation& relation,

@@ -143,7 +143,7 @@ class Motions {
 
   Both<Study> studies_;
   std::vector<std::string> all_;
-  std::vector<Both<OutputInfo>> outputs_;
+  std::vector<Both<WantedOutput>> outputs_;
   bool areOfOneKind_ = false;
 };
 

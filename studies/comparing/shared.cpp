@@ -39,9 +39,8 @@ std::vector<std::string> answersOf(const Results& results) {
 
 /// What the requirement says whose margin an output is; empty of all others.
 std::string demandOf(const Results& results, std::size_t output) {
-  for (const RequirementResult& r : results.requirements)
-    if (output >= r.margin && output < r.margin + static_cast<std::uint64_t>(r.margins)) return r.statement;
-  return {};
+  const RequirementResult* requirement = requirementOf(results, output);
+  return requirement == nullptr ? "" : requirement->statement;
 }
 
 }  // namespace

@@ -21,15 +21,25 @@ constexpr const char* comparisonExpected =
 /// "<", "<=", ">" or ">=" in a text.
 struct Sign {
   std::size_t begin = 0, end = 0;
-  bool isGreater = false, isMetAtZero = false;
+  bool isGreater = false, isStrict = false;
+};
+
+/// One side of a comparison, in SI units.
+struct Side {
+  Expression expression = 0.0;
+  std::optional<Expression> magnitudeOf;  ///< x where abs(x) is stated
+  std::string text;                       ///< as it is stated
+  std::string unitOfNumber;               ///< of a number with one
+  std::string unitOfOutput;               ///< of the first output that it names, or is
+  bool isPlainNumber = false;             ///< without a unit
+
+  bool isZero() const { return expression.amount() && expression.amount()->value == 0; }
 };
 
 class RequirementReader {
  public:
   RequirementReader(const TomlSource& source, Study& study, std::vector<const toml::node*>& nodes)
-      : source_(source), study_(study), nodes_(nodes) {
-    for (const OutputInfo& output : study.outputs) outputs_.push_back(output);
-  }
+      : source_(source), study_(study), nodes_(nodes), outputs_(study.outputs) {}
 
   void read(const toml::table& table) {
     const TomlSection section(source_, table, "requirement", {"name", "always", "eventually", "from", "until"});
@@ -44,21 +54,23 @@ class RequirementReader {
     Requirement requirement;
     requirement.name = section.text("name", text);
     requirement.statement = key + " " + text;
-    requirement.isAlways = always != nullptr;
+    requirement.demand.isAlways = always != nullptr;
+    requirement.firstMargin = study_.outputs.size();
     for (const Requirement& other : study_.requirements)
       if (other.name == requirement.name)
         source_.fail(section.find("name") == nullptr ? node : *section.find("name"),
                      fmt::format("two requirements are named '{}'", other.name), "different names");
-    readWindow(section, requirement);
-    readComparison(node, text, requirement);
+    readWindow(section, requirement.demand);
+    readComparison(node, text, requirement.demand);
+    addMargins(node, requirement);
     study_.requirements.push_back(std::move(requirement));
   }
 
  private:
   // ---- Window -------------------------------------------------------------------------------------------------------
 
-  void readWindow(const TomlSection& section, Requirement& requirement) {
-    requirement.until = study_.horizon;
+  void readWindow(const TomlSection& section, Demand& demand) {
+    demand.until = study_.horizon;
     for (const char* key : {"from", "until"}) {
       const toml::node* node = section.find(key);
       if (node == nullptr) continue;
@@ -69,17 +81,17 @@ class RequirementReader {
       if (!(time >= 0 && time <= study_.horizon))
         source_.fail(*node, fmt::format("{} is {} s, outside the study's time", name, time),
                      fmt::format("a time from 0 s to {} s", study_.horizon));
-      (std::string_view(key) == "from" ? requirement.from : requirement.until) = time;
+      (std::string_view(key) == "from" ? demand.from : demand.until) = time;
       // What is known at an output time is known exactly there.
       std::vector<double>& times = study_.motion.times;
       const auto place = std::ranges::lower_bound(times, time);
       if (place == times.end() || *place != time) times.insert(place, time);
     }
-    if (requirement.from > requirement.until)
-      source_.fail(section.table(),
-                   fmt::format("the requirement's time begins at {} s, after its end at {} s", requirement.from,
-                               requirement.until),
-                   "from before until");
+    if (demand.from > demand.until)
+      source_.fail(
+          section.table(),
+          fmt::format("the requirement's time begins at {} s, after its end at {} s", demand.from, demand.until),
+          "from before until");
     if (study_.motion.times.size() > maxOutputTimes)
       source_.fail(section.table(), fmt::format("there are more than {} output times", maxOutputTimes), "fewer");
   }
@@ -102,8 +114,8 @@ class RequirementReader {
         source_.fail(node, fmt::format("'{}' is no comparison that a margin could be found of", text),
                      comparisonExpected);
       if (c != '<' && c != '>') continue;
-      const bool isMetAtZero = i + 1 < text.size() && text[i + 1] == '=';
-      signs.push_back({i, i + (isMetAtZero ? 2 : 1), c == '>', isMetAtZero});
+      const bool isStrict = i + 1 == text.size() || text[i + 1] != '=';
+      signs.push_back({i, i + (isStrict ? 1 : 2), c == '>', isStrict});
       i = signs.back().end - 1;
     }
     if (signs.empty()) source_.fail(node, fmt::format("'{}' compares nothing", text), comparisonExpected);
@@ -113,7 +125,7 @@ class RequirementReader {
     return signs;
   }
 
-  void readComparison(const toml::node& node, const std::string& text, Requirement& requirement) {
+  void readComparison(const toml::node& node, const std::string& text, Demand& demand) {
     const std::vector<Sign> signs = signsIn(node, text);
     std::vector<Side> sides;
     for (std::size_t i = 0; i <= signs.size(); ++i) {
@@ -122,68 +134,76 @@ class RequirementReader {
     }
     takeUnits(node, text, sides);
     if (signs.size() == 2) refuseContradiction(node, text, signs, sides.front(), sides.back());
+    units_ = wantedUnits(sides);
     for (std::size_t i = 0; i < signs.size(); ++i) {
-      const Side &greater = sides[signs[i].isGreater ? i : i + 1], &less = sides[signs[i].isGreater ? i + 1 : i];
-      const std::string which = signs.size() == 1                ? ""
-                                : signs[i].isGreater == (i == 0) ? ", from above"
-                                                                 : ", from below";
-      const std::vector<std::string> wanted = wantedUnits(sides);
-      const auto add = [&](const std::string& side, const Side& below) {
-        addMargin(node, requirement.name + side, greater, below, wanted);
-        requirement.margins.push_back(study_.outputs.size() - 1);
-        requirement.isMetAtZero.push_back(signs[i].isMetAtZero ? 1 : 0);
-      };
-      // |x| < c is -c < x < c, without a kink.
-      const std::string inside = signs.size() == 1 ? insideOfAbs(less.quantity) : "";
-      if (inside.empty()) {
-        add(which, less);
-      } else {
-        add(", from above", {inside, less.expression});
-        add(", from below", {fmt::format("-({})", inside), less.expression});
-      }
+      const Side &left = sides[i], &right = sides[i + 1], &lesser = signs[i].isGreater ? right : left;
+      const bool isMagnitude = signs.size() == 1 && lesser.magnitudeOf;
+      // What stands in the middle is compared with both ends; of two sides, a magnitude, what is no number, or the
+      // first.
+      const bool isLeft = signs.size() == 2 ? i == 1 : isMagnitude ? &lesser == &left : !left.expression.isConstant();
+      const Side &what = isLeft ? left : right, &limit = isLeft ? right : left;
+      DemandTerm term{
+          what.expression,   signs[i].isGreater == isLeft ? DemandTerm::Side::above : DemandTerm::Side::below,
+          limit.expression,  signs[i].isStrict,
+          what.text,         limit.text,
+          limit.unitOfNumber};
+      if (isMagnitude)
+        addMagnitude(*lesser.magnitudeOf, std::move(term), demand);
+      else
+        demand.terms.push_back(std::move(term));
     }
   }
 
-  /// One side of a comparison.
-  struct Side {
-    std::string quantity;  ///< with outputs' names replaced by what they are
-    Expression expression = 0.0;
-    bool isZero = false;
-    std::string ofOutput = {};  ///< unit of the first output that it names, or is
-    std::string ofNumber = {};  ///< of a number with one
-  };
+  /// |x| < c is -c < x < c, without a kink.
+  static void addMagnitude(const Expression& inside, DemandTerm term, Demand& demand) {
+    term.expression = inside;
+    if (term.what.starts_with("abs(") && term.what.ends_with(')'))
+      term.what = term.what.substr(4, term.what.size() - 5);
+    demand.terms.push_back(term);
+    term.side = DemandTerm::Side::above;
+    term.limit = -term.limit;
+    term.limitText = "-" + inParentheses(term.limitText);
+    demand.terms.push_back(std::move(term));
+  }
 
   /// Blanks stand for the rest of the text, so that columns are the text's.
   Side readSide(const toml::node& node, const std::string& text, std::size_t begin, std::size_t end) const {
     std::string alone(text.size(), ' ');
     alone.replace(begin, end - begin, text, begin, end - begin);
     alone.resize(end);
-    const std::string trimmed = trim(text.substr(begin, end - begin));
-    if (trimmed.empty())
-      source_.fail(node, fmt::format("'{}' has nothing on one side of a comparison", text), comparisonExpected);
     Side side;
+    side.text = trim(text.substr(begin, end - begin));
+    if (side.text.empty())
+      source_.fail(node, fmt::format("'{}' has nothing on one side of a comparison", text), comparisonExpected);
     try {
       side.expression = Expression::parse(alone, [this](std::string_view word) {
         const std::string name(word);
         return isQuantity(name) || outputNamed(name) != nullptr;
       });
-      for (const std::string& name : side.expression.names())
+      for (const std::string& name : side.expression.names()) {
         if (name != "t" && outputNamed(name) == nullptr && !isQuantity(name))
           source_.fail(node, fmt::format("unknown quantity '{}'", name), quantityExpected(name, namesForMessages()));
-      dimensionOf(side.expression);
+        if (const WantedOutput* output = outputThatIs(name); output != nullptr && side.unitOfOutput.empty())
+          side.unitOfOutput = output->unit;
+      }
+      const auto instead = [this](const std::string& name) -> const Expression* {
+        const WantedOutput* output = outputNamed(name);
+        return output != nullptr ? &output->expression : nullptr;
+      };
+      if (const std::optional<Expression> inside = side.expression.insideOfAbs())
+        side.magnitudeOf = inside->with(instead);
+      side.expression = side.expression.with(instead);
+      study_.mechanism.dimensionOf(side.expression);
     } catch (const UnitError& error) {
-      if (outputNamed(trimmed) != nullptr && unitNamed(trimmed) != nullptr)
-        source_.fail(node, fmt::format("'{}' is a unit as well as an output", trimmed),
-                     fmt::format("the output in single quotes, '{}'", trimmed));
+      if (outputNamed(side.text) != nullptr && unitNamed(side.text) != nullptr)
+        source_.fail(node, fmt::format("'{}' is a unit as well as an output", side.text),
+                     fmt::format("the output in single quotes, '{}'", side.text));
       source_.fail(node, error);
     }
-    const std::optional<Amount> amount = side.expression.amount();
-    side.isZero = amount && amount->value == 0;
-    side.quantity = withoutOutputs(trimmed, side.expression.names());
-    for (const std::string& name : side.expression.names())
-      if (const OutputInfo* output = outputThatIs(name); output != nullptr && side.ofOutput.empty())
-        side.ofOutput = output->unit;
-    if (amount) side.ofNumber = unitBehindNumber(trimmed);
+    if (const std::optional<Amount> amount = side.expression.amount()) {
+      side.unitOfNumber = unitBehindNumber(side.text);
+      side.isPlainNumber = !amount->hasUnit && !amount->isRelative;
+    }
     return side;
   }
 
@@ -193,39 +213,29 @@ class RequirementReader {
     std::vector<std::string> units;
     for (const bool isSi : {false, true})
       for (const Side& side : sides)
-        if (!side.ofOutput.empty() && isOfSi(side.ofOutput) == isSi) units.push_back(side.ofOutput);
+        if (!side.unitOfOutput.empty() && isOfSi(side.unitOfOutput) == isSi) units.push_back(side.unitOfOutput);
     for (const Side& side : sides)
-      if (!side.ofNumber.empty()) units.push_back(side.ofNumber);
+      if (!side.unitOfNumber.empty()) units.push_back(side.unitOfNumber);
     return units;
   }
 
   static bool isOfSi(const std::string& unit) { return unit == "1" || unitOf(gamut::dimensionOf(unit)) == unit; }
 
   /// A plain number is one in the SI unit of what it is compared with, as everywhere in a study.
-  void takeUnits(const toml::node& node, const std::string& text, std::vector<Side>& sides) const {
-    const auto isPlainNumber = [](const Side& side) {
-      const std::optional<Amount> amount = side.expression.amount();
-      return amount && !amount->hasUnit && !amount->isRelative;
-    };
-    const auto first = std::ranges::find_if_not(sides, isPlainNumber);
-    if (first == sides.end()) return;
-    const Dimension dimension = dimensionOf(first->expression);
+  void takeUnits(const toml::node& node, const std::string& text, std::vector<Side>& sides) {
+    const auto first = std::ranges::find_if_not(sides, &Side::isPlainNumber);
+    dimension_ = first == sides.end() ? Dimension{} : study_.mechanism.dimensionOf(first->expression);
     for (Side& side : sides) {
-      const Dimension own = dimensionOf(side.expression);
-      if (own == dimension || side.isZero) continue;
-      if (isAlikeButForRadians(own, dimension)) {
-        side.quantity = inParentheses(side.quantity);
-        for (int n = own.angle; n != dimension.angle; n += n < dimension.angle ? 1 : -1)
-          side.quantity += n < dimension.angle ? "*(1 rad)" : "/(1 rad)";
-        continue;
-      }
-      if (!isPlainNumber(side))
-        source_.fail(node, fmt::format("'{}' compares {} with {}", text, unitOf(dimension), unitOf(own)),
-                     "quantities of one kind" + std::max(perRadian(dimension, own), perRadian(own, dimension)));
-      const bool isOneNumber = side.quantity.find_first_of("+*/^( ") == std::string::npos;
-      side.quantity = isOneNumber ? fmt::format("{} {}", side.quantity, unitInFormulas(dimension))
-                                  : fmt::format("({})*(1 {})", side.quantity, unitInFormulas(dimension));
+      const Dimension own = study_.mechanism.dimensionOf(side.expression);
+      if (own == dimension_ || isAlikeButForRadians(own, dimension_) || side.isZero()) continue;
+      if (!side.isPlainNumber)
+        source_.fail(node, fmt::format("'{}' compares {} with {}", text, unitOf(dimension_), unitOf(own)),
+                     "quantities of one kind" + std::max(perRadian(dimension_, own), perRadian(own, dimension_)));
+      const bool isOneNumber = side.text.find_first_of("+-*/^( ", 1) == std::string::npos;
+      side.text = fmt::format(fmt::runtime(isOneNumber ? "{} {}" : "({}) {}"), side.text, unitOf(dimension_));
     }
+    for (const Side& side : sides)
+      dimension_.isOfMoment = dimension_.isOfMoment || study_.mechanism.dimensionOf(side.expression).isOfMoment;
   }
 
   /// Nothing lies between limits that have changed places.
@@ -233,116 +243,70 @@ class RequirementReader {
                            const Side& first, const Side& last) const {
     const std::optional<Amount> a = first.expression.amount(), b = last.expression.amount();
     if (!a || !b) return;
-    const bool isGreater = signs[0].isGreater, isMetByOne = signs[0].isMetAtZero && signs[1].isMetAtZero;
+    const bool isGreater = signs[0].isGreater, isMetByOne = !signs[0].isStrict && !signs[1].isStrict;
     const double below = nearest(isGreater ? *b : *a), above = nearest(isGreater ? *a : *b);
     if (below > above || (below == above && !isMetByOne))
       source_.fail(node, fmt::format("'{}' is met by nothing: its limits leave nothing between them", text),
                    fmt::format("the {} limit first", isGreater ? "greater" : "lesser"));
   }
 
-  void addMargin(const toml::node& node, const std::string& name, const Side& greater, const Side& less,
-                 const std::vector<std::string>& wanted) {
-    std::string quantity, unit;
-    try {
-      quantity = less.isZero ? greater.quantity
-                 : greater.isZero
-                     ? fmt::format("-({})", less.quantity)
-                     : fmt::format("{} - {}", inParentheses(greater.quantity), inParentheses(less.quantity));
-      const Dimension dimension = study_.mechanism.dimensionOf(study_.mechanism.parse(quantity));
-      const auto found = std::ranges::find_if(wanted, [&](const std::string& of) {
-        return gamut::dimensionOf(of) == dimension || isAlikeButForRadians(gamut::dimensionOf(of), dimension);
-      });
-      unit = found != wanted.end() ? *found : unitOf(dimension);
-    } catch (const UnitError& error) {
-      source_.fail(node, error);
-    }
-    for (const OutputInfo& other : study_.outputs)
-      if (other.name == name)
+  void addMargins(const toml::node& node, const Requirement& requirement) {
+    const auto found = std::ranges::find_if(units_, [&](const std::string& unit) {
+      return gamut::dimensionOf(unit) == dimension_ || isAlikeButForRadians(gamut::dimensionOf(unit), dimension_);
+    });
+    const std::string unit = found != units_.end() ? *found : unitOf(dimension_);
+    for (const DemandTerm& term : requirement.demand.terms) {
+      const bool isAbove = term.side == DemandTerm::Side::above;
+      const std::string name = requirement.name + (requirement.margins() == 1 ? ""
+                                                   : isAbove                  ? ", from below"
+                                                                              : ", from above");
+      if (std::ranges::find(study_.outputs, name, &WantedOutput::name) != study_.outputs.end())
         source_.fail(node, fmt::format("an output and a requirement's margin are both named '{}'", name),
                      "a name of its own for the requirement");
-    study_.outputs.push_back(OutputInfo{name, quantity, unit});
-    nodes_.push_back(&node);
+      study_.outputs.push_back({{name, marginText(term), unit}, term.margin()});
+      nodes_.push_back(&node);
+    }
   }
 
-  /// x of "abs(x)"; empty for anything else.
-  static std::string insideOfAbs(const std::string& quantity) {
-    constexpr std::string_view begin = "abs(";
-    if (!quantity.starts_with(begin) || !quantity.ends_with(')')) return {};
-    int depth = 0;
-    for (std::size_t i = begin.size() - 1; i + 1 < quantity.size(); ++i)
-      if ((depth += quantity[i] == '(' ? 1 : quantity[i] == ')' ? -1 : 0) == 0) return {};
-    return quantity.substr(begin.size(), quantity.size() - begin.size() - 1);
+  static std::string marginText(const DemandTerm& term) {
+    const bool isAbove = term.side == DemandTerm::Side::above,
+               isOfZero = term.limit.amount() && term.limit.amount()->value == 0;
+    const std::string what = inParentheses(term.what), limit = inParentheses(term.limitText);
+    if (isOfZero) return isAbove ? term.what : "-" + what;
+    return isAbove ? fmt::format("{} - {}", what, limit) : fmt::format("{} - {}", limit, what);
   }
+
+  // ---- Names --------------------------------------------------------------------------------------------------------
 
   bool isQuantity(const std::string& name) const {
     return study_.mechanism.knows(name) || study_.mechanism.isOutputQuantity(name);
   }
 
   /// What is a quantity is that, also where an output has its name.
-  const OutputInfo* outputNamed(const std::string& name) const {
+  const WantedOutput* outputNamed(const std::string& name) const {
     if (isQuantity(name)) return nullptr;
-    const auto found = std::ranges::find(outputs_, name, &OutputInfo::name);
+    const auto found = std::ranges::find(outputs_, name, &WantedOutput::name);
     return found == outputs_.end() ? nullptr : &*found;
   }
 
   /// The same, or the first that is the quantity of this name.
-  const OutputInfo* outputThatIs(const std::string& name) const {
+  const WantedOutput* outputThatIs(const std::string& name) const {
     if (!isQuantity(name)) return outputNamed(name);
-    const auto found = std::ranges::find(outputs_, name, &OutputInfo::quantity);
+    const auto found = std::ranges::find(outputs_, name, &WantedOutput::quantity);
     return found == outputs_.end() ? nullptr : &*found;
   }
 
   std::vector<std::string> namesForMessages() const {
     std::vector<std::string> names = study_.mechanism.namesInFormulas();
-    for (const OutputInfo& output : outputs_) names.push_back(output.name);
+    for (const WantedOutput& output : outputs_) names.push_back(output.name);
     return names;
   }
 
-  Dimension dimensionOf(const Expression& expression) const {
-    return expression.dimension([&](const std::string& name) {
-      const OutputInfo* output = outputNamed(name);
-      return study_.mechanism.dimensionOf(output != nullptr ? study_.mechanism.parse(quantityOf(*output))
-                                                            : Expression::named(name));
-    });
-  }
-
   /// As a term of a formula.
-  static std::string inParentheses(const std::string& quantity) {
-    const bool isPlain = quantity.find_first_of("+-*/^() ") == std::string::npos ||
-                         quantity.find_first_not_of(
-                             "0123456789. abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_") == std::string::npos;
-    return isPlain ? quantity : "(" + quantity + ")";
-  }
-
-  /// A name that is no word is put in quotes in formulas.
-  std::string quantityOf(const OutputInfo& output) const {
-    return isQuantity(output.quantity) ? quoted(output.quantity) : output.quantity;
-  }
-
-  static std::string quoted(const std::string& name) {
-    const bool isWord = std::ranges::all_of(
-        name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.' || c >= 0x80; });
-    return isWord ? name : "'" + name + "'";
-  }
-
-  std::string withoutOutputs(std::string text, const std::vector<std::string>& names) const {
-    const auto isOfWord = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '\''; };
-    for (const std::string& name : names) {
-      const OutputInfo* output = outputNamed(name);
-      if (output == nullptr) continue;
-      const std::string instead = inParentheses(quantityOf(*output));
-      for (const std::string& word : {"'" + name + "'", quoted(name)})  // quotes are well where none are needed
-        for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
-          const bool isQuoted = word.front() != '\'' &&
-                                std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\'') % 2 != 0;
-          const bool isWhole =
-              !isQuoted && (at == 0 || !isOfWord(static_cast<unsigned char>(text[at - 1]))) &&
-              (at + word.size() == text.size() || !isOfWord(static_cast<unsigned char>(text[at + word.size()])));
-          if (isWhole) text.replace(at, word.size(), instead);
-          at += isWhole ? instead.size() : word.size();
-        }
-    }
-    return text;
+  static std::string inParentheses(const std::string& text) {
+    const bool isOne = text.find_first_of("+-*/^ ", 1) == std::string::npos || !unitBehindNumber(text).empty() ||
+                       (text.front() == '\'' && text.find('\'', 1) == text.size() - 1);
+    return isOne && text.front() != '-' ? text : "(" + text + ")";
   }
 
   static std::string trim(const std::string& text) {
@@ -353,7 +317,9 @@ class RequirementReader {
   const TomlSource& source_;
   Study& study_;
   std::vector<const toml::node*>& nodes_;
-  std::vector<OutputInfo> outputs_;  // of the study, without margins
+  std::vector<WantedOutput> outputs_;  // of the study, without margins
+  Dimension dimension_;                // of both sides
+  std::vector<std::string> units_;     // in which their margins may be told
 };
 
 }  // namespace

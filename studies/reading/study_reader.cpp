@@ -372,7 +372,9 @@ class StudyReader {
     try {
       recordPrograms(study_);
     } catch (const UndefinedOutput& error) {
-      source_.failWith(*outputNodes_[error.output()], error.what(), "a formula that has a value");
+      source_.failWith(*outputNodes_[error.output()],
+                       fmt::format("'{}' {}", study_.outputs[error.output()].quantity, error.what()),
+                       "a formula that has a value");
     } catch (const std::domain_error& error) {
       refuseNumberWithoutValue();
       source_.failWith(mechanism, error.what(), "a mechanism in which all that is measured has a value");
@@ -392,19 +394,23 @@ class StudyReader {
 
   // ---- [[output]] ---------------------------------------------------------------------------------------------------
 
-  /// Of a quantity, or of an expression of quantities.
-  std::string unitOfOutput(const toml::node& node, const std::string& quantity) const {
+  /// A quantity, or an expression of quantities.
+  Expression outputExpression(const toml::node& node, const std::string& quantity) const {
     const Mechanism& mechanism = study_.mechanism;
     const auto refuse = [&](const std::string& name) {
       source_.fail(node, fmt::format("unknown quantity '{}'", name),
                    outputExpected(name, mechanism.namesInFormulas(), mechanism));
     };
-    if (mechanism.isOutputQuantity(quantity)) return mechanism.unitOf(quantity);
+    if (mechanism.isOutputQuantity(quantity)) return Expression::named(quantity);
     const bool isNumber = quantity == "t" || mechanism.knows(quantity);
     if (!isNumber && quantity.find_first_of(" +-*/^()'") == std::string::npos) refuse(quantity);
-    const Expression expression = source_.asExpression(node, "output.quantity", true);
+    Expression expression = source_.asExpression(node, "output.quantity", true);
     for (const std::string& name : expression.names())
       if (name != "t" && !mechanism.knows(name) && !mechanism.isOutputQuantity(name)) refuse(name);
+    return expression;
+  }
+
+  std::string unitOfOutput(const toml::node& node, const Expression& expression) const {
     try {
       return unitOf(study_.mechanism.dimensionOf(expression));
     } catch (const UnitError& error) {
@@ -436,13 +442,16 @@ class StudyReader {
     const TomlSection section(source_, table, "output", {"name", "quantity", "unit", "resolution", "tightness"});
     const toml::node& node = section.require("quantity", "what is wanted, such as \"tip.position.z\" or \"energy\"");
     const std::string quantity = source_.asText(node, "output.quantity");
-    const std::string own = unitOfOutput(node, quantity), unit = statedUnit(section, own);
+    const Expression expression = outputExpression(node, quantity);
+    const std::string own = study_.mechanism.isOutputQuantity(quantity) ? study_.mechanism.unitOf(quantity)
+                                                                        : unitOfOutput(node, expression),
+                      unit = statedUnit(section, own);
     const std::string name = section.text("name", quantity);
     if (!outputNames_.insert(name).second) {
       const toml::node* at = section.find("name");
       source_.fail(at == nullptr ? node : *at, fmt::format("two outputs are named '{}'", name), "different names");
     }
-    OutputInfo output{name, quantity, unit};
+    WantedOutput output{{name, quantity, unit}, expression};
     if (const toml::node* stated = section.find("resolution")) output.resolution = resolutionOf(*stated, unit);
     if (const toml::node* stated = section.find("tightness")) {
       if (study_.analysis == Study::Analysis::kinematics)
@@ -458,7 +467,7 @@ class StudyReader {
 
   /// In the output's unit; as there, a number without unit is in the SI unit.
   double resolutionOf(const toml::node& node, const std::string& unit) const {
-    const Amount one = parseAmount("1 " + (unit.empty() || unit == "1" ? std::string() : unit));
+    const Amount one = oneOfUnit(unit);
     const double resolution = nearest(source_.asAmount(node, "output.resolution", one.dimension)) / nearest(one);
     if (!(resolution >= 0 && std::isfinite(resolution)))
       source_.fail(node, fmt::format("output.resolution is {}", resolution),

@@ -6,23 +6,23 @@ namespace {
 
 std::vector<Field> fieldsOf(ComparisonResult& r) {
   using namespace dimension;
-  return {{"verdict", &r.verdict, unit::none, "\"inside\", \"outside\", \"unresolved\" or \"incomplete\"", {}},
-          {"why", &r.why, unit::none, "why not all was decided; empty if it was", {}},
-          {"excursion",
-           &r.excursion,
-           unit::one,
-           "greatest distance outside, in multiples of that sample's measured error",
-           {}},
-          {"maximum", &r.maximum, unit::one, "greatest overestimation", {}},
-          {"median", &r.median, unit::one, "median of the overestimation", {}},
-          {"overestimation",
-           &r.overestimation,
-           unit::one,
-           "width of the enclosure over width of the envelope; NaN where that is too narrow to tell, or the enclosure "
-           "infinite",
-           {time, output}},
-          {"excess", &r.excess, unit::ofOutput, "width of the enclosure minus width of the envelope", {time, output}},
-          {"maximum_of", &r.maximumOf, unit::one, "greatest overestimation of each output", {output}}};
+  return r.fieldsAnd(
+      {{"verdict", Choice::of(r.verdict), unit::none, "\"inside\", \"outside\", \"unresolved\" or \"incomplete\"", {}},
+       {"excursion",
+        &r.excursion,
+        unit::one,
+        "greatest distance outside, in multiples of that sample's measured error",
+        {}},
+       {"maximum", &r.maximum, unit::one, "greatest overestimation", {}},
+       {"median", &r.median, unit::one, "median of the overestimation", {}},
+       {"overestimation",
+        &r.overestimation,
+        unit::one,
+        "width of the enclosure over width of the envelope; NaN where that is too narrow to tell, or the enclosure "
+        "infinite",
+        {time, output}},
+       {"excess", &r.excess, unit::ofOutput, "width of the enclosure minus width of the envelope", {time, output}},
+       {"maximum_of", &r.maximumOf, unit::one, "greatest overestimation of each output", {output}}});
 }
 
 std::vector<Field> fieldsOfDispute(DisputedSample& d) {
@@ -67,14 +67,11 @@ bool isUnresolved(const DisputedSample& sample) { return !sample.outside && samp
 bool isRounding(const DisputedSample& sample) { return !sample.outside && sample.decided == "rounding"; }
 bool isInterrupted(const DisputedSample& sample) { return !sample.outside && sample.decided == "interrupted"; }
 
-void describe(ComparisonResult& comparison, std::vector<Group>& groups) {
-  groups.push_back(groupOf("/comparison", "how the answers agree", comparison, fieldsOf));
-  groups.push_back(listOf("/comparison/disputed", "samples that were looked at again", dimension::dispute,
-                          comparison.disputed, fieldsOfDispute));
-  groups.back().makesSense = [&comparison](std::size_t i) {
-    const DisputedSample& d = comparison.disputed[i];
-    return isInterval(d.lower, d.upper);
-  };
+void ComparisonResult::describe(std::vector<Group>& groups) {
+  groups.push_back(groupOf("/comparison", "how the answers agree", *this, fieldsOf));
+  groups.push_back(listOf("/comparison/disputed", "samples that were looked at again", dimension::dispute, disputed,
+                          fieldsOfDispute));
+  groups.back().makesSense = [this](std::size_t i) { return isInterval(disputed[i].lower, disputed[i].upper); };
 }
 
 }  // namespace gamut

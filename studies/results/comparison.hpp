@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analyses/table.hpp"
-#include "studies/results/fields.hpp"
+#include "studies/results/part.hpp"
 
 namespace gamut {
 
@@ -33,10 +33,19 @@ bool isRounding(const DisputedSample& sample);
 /// It seemed outside when the run was interrupted.
 bool isInterrupted(const DisputedSample& sample);
 
-struct ComparisonResult {
-  bool present = false;  ///< there were samples, and something to compare them with
-  std::string verdict;   ///< "inside" | "outside" | "incomplete" | "unresolved"
-  std::string why;       ///< why it ended before all was decided; empty if it did not
+/// Whether every sample lies in what is guaranteed.
+enum class Agreement : unsigned char {
+  incomplete,  ///< as far as it is known; but not all was compared
+  inside,      ///< over the whole horizon
+  outside,     ///< at least one does not
+  unresolved   ///< at least one may or may not
+};
+template <>
+inline constexpr std::array<std::string_view, 4> words<Agreement>{"incomplete", "inside", "outside", "unresolved"};
+
+/// Present where there were samples, and something to compare them with.
+struct ComparisonResult final : Part {
+  Agreement verdict = Agreement::incomplete;
   double excursion = 0;  ///< greatest distance outside, in multiples of that sample's measured error
   Table overestimation;  ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell, or
   /// the enclosure infinite
@@ -45,9 +54,9 @@ struct ComparisonResult {
   double median = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> maximumOf;  ///< one an output
   std::vector<DisputedSample> disputed;
-};
 
-/// Adds the groups of this part.
-void describe(ComparisonResult& comparison, std::vector<Group>& groups);
+  std::string title() const override { return "comparison"; }
+  void describe(std::vector<Group>& groups) override;
+};
 
 }  // namespace gamut

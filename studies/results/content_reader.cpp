@@ -98,22 +98,27 @@ class ContentReader {
   void readRecord(const Group& group, const Hdf5Reader& in) {
     for (const Field& field : group.fields(0)) {
       const std::string name(field.name);
-      std::visit(
-          Visitor{[&](double* x) { *x = in.number(name); }, [&](std::int64_t* x) { *x = in.integer(name); },
-                  [&](std::uint64_t* x) { *x = in.natural(name); }, [&](bool* x) { *x = in.integer(name) != 0; },
-                  [&](std::string* x) { *x = in.text(name); }, [&](WholeText x) { *x.text = in.wholeText(name); },
-                  [&](std::vector<double>* v) { *v = doubles(group, field, "", in); },
-                  [&](std::vector<std::int64_t>* v) {
-                    *v = numbers<std::int64_t>(group, field, name, in, [&](const std::string& n, Hdf5Shape& shape) {
-                      return in.integers(n, shape);
-                    });
-                  },
-                  [&](Table* t) { takeFirst(tables(group, field, "", in), *t); },
-                  [&](std::vector<Table>* v) { *v = tables(group, field, "", in); },
-                  [&](Envelope* e) { takeFirst(envelopes(group, field, in), *e); },
-                  [&](std::vector<Envelope>* v) { *v = envelopes(group, field, in); }},
-          field.value);
+      std::visit(Visitor{[&](double* x) { *x = in.number(name); }, [&](std::int64_t* x) { *x = in.integer(name); },
+                         [&](std::uint64_t* x) { *x = in.natural(name); }, [&](bool* x) { *x = in.integer(name) != 0; },
+                         [&](std::string* x) { *x = in.text(name); },
+                         [&](Choice x) { takeWord(x, in.text(name), group, field); },
+                         [&](WholeText x) { *x.text = in.wholeText(name); },
+                         [&](std::vector<double>* v) { *v = doubles(group, field, "", in); },
+                         [&](std::vector<std::int64_t>* v) {
+                           *v = numbers<std::int64_t>(
+                               group, field, name, in,
+                               [&](const std::string& n, Hdf5Shape& shape) { return in.integers(n, shape); });
+                         },
+                         [&](Table* t) { takeFirst(tables(group, field, "", in), *t); },
+                         [&](std::vector<Table>* v) { *v = tables(group, field, "", in); },
+                         [&](Envelope* e) { takeFirst(envelopes(group, field, in), *e); },
+                         [&](std::vector<Envelope>* v) { *v = envelopes(group, field, in); }},
+                 field.value);
     }
+  }
+
+  static void takeWord(const Choice& choice, const std::string& word, const Group& group, const Field& field) {
+    if (!choice.take(word)) throw Hdf5Error(pathOf(group, field));
   }
 
   // ---- Lists --------------------------------------------------------------------------------------------------------
@@ -124,11 +129,12 @@ class ContentReader {
 
   static Column columnOf(const Field& field, const Hdf5Reader& in, Hdf5Shape& shape) {
     const std::string name(field.name);
-    return std::visit(Visitor{[&](std::string*) -> Column {
-                                std::vector<std::string> texts = in.texts(name);
-                                shape = {texts.size()};
-                                return texts;
-                              },
+    const auto texts = [&]() -> Column {
+      std::vector<std::string> all = in.texts(name);
+      shape = {all.size()};
+      return all;
+    };
+    return std::visit(Visitor{[&](std::string*) { return texts(); }, [&](Choice) { return texts(); },
                               [&](double*) -> Column { return in.numbers(name, shape); },
                               [&](std::vector<double>*) -> Column { return in.numbers(name, shape); },
                               [&](const auto&) -> Column { return in.integers(name, shape); }},
@@ -160,18 +166,19 @@ class ContentReader {
     for (std::size_t i = 0; i < size; ++i) {
       const std::vector<Field> fields = group.fields(i);
       for (std::size_t f = 0; f < fields.size(); ++f)
-        if (!std::holds_alternative<Absent>(columns[f])) put(columns[f], i, size, fields[f]);
+        if (!std::holds_alternative<Absent>(columns[f])) put(columns[f], i, size, group, fields[f]);
     }
   }
 
   /// Value i of a column, or as many as there are for each of `size` records, into its field.
-  static void put(const Column& column, std::size_t i, std::size_t size, const Field& field) {
+  static void put(const Column& column, std::size_t i, std::size_t size, const Group& group, const Field& field) {
     const auto integer = [&] { return std::get<std::vector<std::int64_t>>(column)[i]; };
     std::visit(Visitor{[&](double* x) { *x = std::get<std::vector<double>>(column)[i]; },
                        [&](std::int64_t* x) { *x = integer(); },
                        [&](std::uint64_t* x) { *x = static_cast<std::uint64_t>(integer()); },
                        [&](bool* x) { *x = integer() != 0; },
                        [&](std::string* x) { *x = std::get<std::vector<std::string>>(column)[i]; },
+                       [&](Choice x) { takeWord(x, std::get<std::vector<std::string>>(column)[i], group, field); },
                        [&](std::vector<double>* v) {
                          const std::vector<double>& all = std::get<std::vector<double>>(column);
                          const auto each = static_cast<std::ptrdiff_t>(all.size() / size);

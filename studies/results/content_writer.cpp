@@ -99,6 +99,7 @@ class ContentWriter {
                        [&](std::uint64_t* x) { writeAttribute(field, *x, out); },
                        [&](bool* x) { writeAttribute(field, std::int64_t{*x}, out); },
                        [&](std::string* x) { writeAttribute(field, *x, out); },
+                       [&](Choice x) { writeAttribute(field, x.word(), out); },
                        [&](WholeText x) { out.text(std::string(field.name), *x.text, std::string(field.meaning)); },
                        [&](std::vector<double>* v) {
                          if (!v->empty()) writeNumbers(group, field, "", "", v->data(), out);
@@ -154,6 +155,13 @@ class ContentWriter {
                 [&](bool*) { writeIntegerColumn(column<bool, std::int64_t>(records, f)); },
                 [&](std::string*) {
                   out.texts(name, column<std::string, std::string>(records, f), meaning);
+                  place(group, field, name, out);
+                },
+                [&](Choice) {
+                  std::vector<std::string> texts;
+                  for (const std::vector<Field>& fields : records)
+                    texts.push_back(std::get<Choice>(fields[f].value).word());
+                  out.texts(name, texts, meaning);
                   place(group, field, name, out);
                 },
                 [&](std::vector<double>*) {

@@ -21,15 +21,14 @@ bool isAsTight(const Results& one, const Results& other) {
   return std::isnan(other.interval.tightness) || one.interval.tightness <= other.interval.tightness;
 }
 
-template <class Part>
-bool isAsFinished(const Part& one, const Part& other) {
-  return !other.present || (one.present && (one.stopped.empty() || !other.stopped.empty()));
+bool isAsFinished(const Part* one, const Part* other) {
+  return !other->present || (one->present && (one->stopped.empty() || !other->stopped.empty()));
 }
 
 bool decidesAsMuch(const Results& one, const Results& other) {
   return std::ranges::all_of(other.requirements, [&](const RequirementResult& r) {
     const auto same = std::ranges::find(one.requirements, r.statement, &RequirementResult::statement);
-    return r.word == "open" || (same != one.requirements.end() && same->word != "open");
+    return r.word == Decision::open || (same != one.requirements.end() && same->word != Decision::open);
   });
 }
 
@@ -40,8 +39,7 @@ bool holdsAsMuch(const Results& one, const Results& other) {
   for (std::size_t i = 0; i < mine.size(); ++i)
     if (shareOf(one, *mine[i]) < shareOf(other, *others[i])) return false;
   return one.stochastic.integrated >= other.stochastic.integrated && isAsTight(one, other) &&
-         isAsFinished(one.distribution, other.distribution) && isAsFinished(one.derivatives, other.derivatives) &&
-         decidesAsMuch(one, other);
+         std::ranges::equal(one.parts(), other.parts(), isAsFinished) && decidesAsMuch(one, other);
 }
 
 bool asksTheSame(const Results& one, const Results& other) {

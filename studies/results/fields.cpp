@@ -181,6 +181,7 @@ bool isSame(const FieldValue& one, const FieldValue& other) {
   return std::visit(
       Visitor{[&](double* x) { return isSameAs(x, [](double a, double b) { return isSameList({a}, {b}); }); },
               [&](WholeText x) { return *x.text == *std::get<WholeText>(other).text; },
+              [&](Choice x) { return *x.value == *std::get<Choice>(other).value; },
               [&](std::vector<double>* x) { return isSameAs(x, isSameList); },
               [&](Table* x) { return isSameAs(x, isSameTable); },
               [&](Envelope* x) { return isSameAs(x, isSameEnvelope); },

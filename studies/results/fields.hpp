@@ -3,12 +3,17 @@
 // docs/results-file.md are made from this.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -21,11 +26,39 @@ struct WholeText {
   std::string* text;
 };
 
+/// The words of an enumeration, in its order, with which its values are told and kept.
+template <class Enum>
+inline constexpr std::array<std::string_view, 0> words{};
+
+template <class Enum>
+constexpr std::string_view wordOf(Enum value) {
+  return words<Enum>.at(static_cast<std::size_t>(value));
+}
+
+/// A value of an enumeration of bytes.
+struct Choice {
+  unsigned char* value;
+  std::span<const std::string_view> all;
+
+  template <class Enum>
+  static Choice of(Enum& value) {
+    static_assert(std::is_same_v<std::underlying_type_t<Enum>, unsigned char>);
+    return {reinterpret_cast<unsigned char*>(&value), words<Enum>};
+  }
+  std::string word() const { return std::string(all[*value]); }
+  /// False of a word that is none of all.
+  bool take(std::string_view word) const {
+    const auto found = std::ranges::find(all, word);
+    if (found != all.end()) *value = static_cast<unsigned char>(found - all.begin());
+    return found != all.end();
+  }
+};
+
 /// Where the value of a field lies. Vectors, tables and stacks of tables have a place for every combination of the
 /// field's dimensions, the last one running fastest; empty ones are not there. An Envelope is two fields, NAME_lower
 /// and NAME_upper.
 using FieldValue =
-    std::variant<double*, std::int64_t*, std::uint64_t*, bool*, std::string*, WholeText, std::vector<double>*,
+    std::variant<double*, std::int64_t*, std::uint64_t*, bool*, std::string*, WholeText, Choice, std::vector<double>*,
                  std::vector<std::int64_t>*, Table*, std::vector<Table>*, Envelope*, std::vector<Envelope>*>;
 
 namespace dimension {  // a path in the file, where its scale lies

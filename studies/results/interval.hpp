@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analyses/table.hpp"
-#include "studies/results/answer.hpp"
+#include "studies/results/part.hpp"
 
 namespace gamut {
 

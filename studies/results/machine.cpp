@@ -12,13 +12,7 @@ constexpr std::string_view direction = "/machine/directions/direction", point = 
                            sample = "/machine/places/sample";
 }
 
-std::vector<Field> fieldsOf(MachineResult& m) {
-  return {{"why",
-           &m.why,
-           unit::none,
-           "why places are not enclosed, or not to the end; empty if they are, or were not to be",
-           {}}};
-}
+std::vector<Field> fieldsOf(MachineResult& m) { return m.fieldsAnd({}); }
 
 std::vector<Field> fieldsOfDirection(DirectionInfo& d) {
   return {{"direction", &d.name, unit::none, "of the inertial frame", {}},
@@ -83,19 +77,18 @@ std::vector<Field> fieldsOfPlaces(Places& p) {
 
 }  // namespace
 
-void describe(MachineResult& machine, std::vector<Group>& groups) {
-  groups.push_back(groupOf("/machine", "the machine as the report draws it", machine, fieldsOf));
-  groups.push_back(listOf("/machine/directions", "in which places are measured", scale::direction, machine.directions,
-                          fieldsOfDirection));
+void MachineResult::describe(std::vector<Group>& groups) {
+  groups.push_back(groupOf("/machine", "the machine as the report draws it", *this, fieldsOf));
   groups.push_back(
-      listOf("/machine/points", "what has a place of its own", scale::point, machine.points, fieldsOfPoint));
-  groups.push_back(listOf("/machine/parts", "elements between two points", scale::part, machine.parts, fieldsOfPart));
-  groups.push_back(listOf("/machine/axes", "of the joints", scale::axis, machine.axes, fieldsOfAxis));
+      listOf("/machine/directions", "in which places are measured", scale::direction, directions, fieldsOfDirection));
+  groups.push_back(listOf("/machine/points", "what has a place of its own", scale::point, points, fieldsOfPoint));
+  groups.push_back(listOf("/machine/parts", "elements between two points", scale::part, parts, fieldsOfPart));
+  groups.push_back(listOf("/machine/axes", "of the joints", scale::axis, axes, fieldsOfAxis));
   groups.push_back(groupOf("/machine/places",
-                           "where the points are, in the inertial frame, at some of the output times", machine.places,
+                           "where the points are, in the inertial frame, at some of the output times", places,
                            fieldsOfPlaces));
-  groups.back().makesSense = [&machine](std::size_t) {
-    const std::vector<double>&lower = machine.places.lower, &upper = machine.places.upper;
+  groups.back().makesSense = [this](std::size_t) {
+    const std::vector<double>&lower = places.lower, &upper = places.upper;
     for (std::size_t i = 0; i < std::min(lower.size(), upper.size()); ++i)
       if (!isInterval(lower[i], upper[i])) return false;
     return lower.size() == upper.size();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/results/fields.hpp"
+#include "studies/results/part.hpp"
 
 namespace gamut {
 
@@ -50,17 +50,16 @@ struct Places {
   std::vector<double> sag;
 };
 
-struct MachineResult {
-  bool present = false;  ///< there is something to be seen
-  std::string why;       ///< why places are not enclosed, or not to the end; empty if they are, or nobody asked
+/// Present where there is something to be seen; it is less than was asked for where places are not enclosed to the end.
+struct MachineResult final : Part {
   std::vector<DirectionInfo> directions;
   std::vector<PointInfo> points;
   std::vector<PartInfo> parts;
   std::vector<AxisInfo> axes;
   Places places;
-};
 
-/// Adds the groups of this part.
-void describe(MachineResult& machine, std::vector<Group>& groups);
+  std::string title() const override { return "picture"; }
+  void describe(std::vector<Group>& groups) override;
+};
 
 }  // namespace gamut

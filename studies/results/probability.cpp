@@ -1,6 +1,8 @@
 // What the file says of probabilities.
 #include "studies/results/probability.hpp"
 
+#include "studies/words.hpp"
+
 namespace gamut {
 namespace {
 
@@ -8,131 +10,129 @@ constexpr std::string_view times = "/distribution/time", points = "/distribution
 
 std::vector<Field> fieldsOf(DistributionResult& d) {
   using namespace dimension;
-  return {
-      {"wanted", &d.wanted, unit::one, "gap between the bounds that was aimed at", {}, allowed::share},
-      {"gap", &d.gap, unit::one, "the greatest that was left; NaN if nothing is known of some", {}, allowed::share},
-      {"why", &d.why, unit::none, "why it is more than was aimed at; empty if it is not", {}},
-      {"stopped", &d.stopped, unit::none, "why the run ended before all was done; empty if it did not", {}},
-      {"cpu", &d.cpu, unit::second, "CPU time, that of sensitivities and of flows for both included", {}},
-      {"band",
-       &d.band,
-       unit::one,
-       "half the 95 % band of Dvoretzky, Kiefer and Wolfowitz about the share of samples; 0 unless all samples "
-       "arrived and are independent",
-       {}},
-      {"time", &d.time, unit::second, "output times of which distributions are bounded", {times}},
-      {"point", &d.point, unit::none, "numbers of values", {points}, allowed::count},
-      {"value", &d.value, unit::ofOutput, "values, rising; behind the last NaN", {times, output, points}},
-      {"lower",
-       &d.lower,
-       unit::one,
-       "proved bound of the probability that the output is not above the value; between two values it is at least "
-       "that of the lower one and at most the upper bound of the higher one",
-       {times, output, points}},
-      {"upper", &d.upper, unit::one, "upper bound", {times, output, points}},
-      {"sampled",
-       &d.sampled,
-       unit::one,
-       "share of the samples that is not above the value, from a histogram",
-       {times, output, points}},
-      {"gaps", &d.gaps, unit::one, "greatest distance of the bounds, between the values too", {times, output}},
-      {"excess", &d.excess, unit::one, "by how much the share of samples leaves the bounds, at most", {times, output}}};
+  return d.fieldsAnd(
+      {{"wanted", &d.wanted, unit::one, "gap between the bounds that was aimed at", {}, allowed::share},
+       {"gap", &d.gap, unit::one, "the greatest that was left; NaN if nothing is known of some", {}, allowed::share},
+       {"band",
+        &d.band,
+        unit::one,
+        "half the 95 % band of Dvoretzky, Kiefer and Wolfowitz about the share of samples; 0 unless all samples "
+        "arrived and are independent",
+        {}},
+       {"time", &d.time, unit::second, "output times of which distributions are bounded", {times}},
+       {"point", &d.point, unit::none, "numbers of values", {points}, allowed::count},
+       {"value", &d.value, unit::ofOutput, "values, rising; behind the last NaN", {times, output, points}},
+       {"lower",
+        &d.lower,
+        unit::one,
+        "proved bound of the probability that the output is not above the value; between two values it is at least "
+        "that of the lower one and at most the upper bound of the higher one",
+        {times, output, points}},
+       {"upper", &d.upper, unit::one, "upper bound", {times, output, points}},
+       {"sampled",
+        &d.sampled,
+        unit::one,
+        "share of the samples that is not above the value, from a histogram",
+        {times, output, points}},
+       {"gaps", &d.gaps, unit::one, "greatest distance of the bounds, between the values too", {times, output}},
+       {"excess",
+        &d.excess,
+        unit::one,
+        "by how much the share of samples leaves the bounds, at most",
+        {times, output}}});
 }
 
 std::vector<Field> fieldsOf(SensitivityResult& s) {
   using namespace dimension;
   constexpr std::string_view when = "/sensitivity/time";
-  return {
-      {"why", &s.why, unit::none, "why there are no Sobol' indices; empty if there are", {}},
-      {"time", &s.time, unit::second, "output times of which sensitivities are bounded", {when}},
-      {"mean_lower", &s.meanLower, unit::ofOutput, "proved bound of the mean", {when, output}},
-      {"mean_upper", &s.meanUpper, unit::ofOutput, "upper bound", {when, output}},
-      {"deviation_lower", &s.deviationLower, unit::ofOutput, "of the standard deviation", {when, output}},
-      {"deviation_upper", &s.deviationUpper, unit::ofOutput, "upper bound", {when, output}},
-      {"first_lower",
-       &s.firstLower,
-       unit::one,
-       "proved bound of the Sobol' index: the share of the variance that would vanish on average if the quantity "
-       "were known",
-       {when, output, quantity}},
-      {"first_upper", &s.firstUpper, unit::one, "upper bound", {when, output, quantity}},
-      {"total_lower",
-       &s.totalLower,
-       unit::one,
-       "of the total Sobol' index: the share that would stay on average if all other quantities were known",
-       {when, output, quantity}},
-      {"total_upper", &s.totalUpper, unit::one, "upper bound", {when, output, quantity}},
-      {"pinched",
-       &s.pinched,
-       unit::one,
-       "share by which the enclosure of the output narrows where the quantity has its nominal value alone; NaN but at "
-       "the times of distributions",
-       {when, output, quantity}},
-      {"samples",
-       &s.samples,
-       unit::none,
-       "independent samples of the polynomials, in each of two sets and one more a quantity, that estimate the "
-       "indices besides",
-       {},
-       allowed::count},
-      {"first_sampled",
-       &s.firstSampled,
-       unit::one,
-       "estimate of the Sobol' index (Saltelli)",
-       {when, output, quantity}},
-      {"first_error",
-       &s.firstError,
-       unit::one,
-       "half the width of its 95 % confidence interval",
-       {when, output, quantity}},
-      {"total_sampled", &s.totalSampled, unit::one, "estimate of the total index (Jansen)", {when, output, quantity}},
-      {"total_error",
-       &s.totalError,
-       unit::one,
-       "half the width of its 95 % confidence interval",
-       {when, output, quantity}}};
+  return s.fieldsAnd(
+      {{"time", &s.time, unit::second, "output times of which sensitivities are bounded", {when}},
+       {"mean_lower", &s.meanLower, unit::ofOutput, "proved bound of the mean", {when, output}},
+       {"mean_upper", &s.meanUpper, unit::ofOutput, "upper bound", {when, output}},
+       {"deviation_lower", &s.deviationLower, unit::ofOutput, "of the standard deviation", {when, output}},
+       {"deviation_upper", &s.deviationUpper, unit::ofOutput, "upper bound", {when, output}},
+       {"first_lower",
+        &s.firstLower,
+        unit::one,
+        "proved bound of the Sobol' index: the share of the variance that would vanish on average if the quantity "
+        "were known",
+        {when, output, quantity}},
+       {"first_upper", &s.firstUpper, unit::one, "upper bound", {when, output, quantity}},
+       {"total_lower",
+        &s.totalLower,
+        unit::one,
+        "of the total Sobol' index: the share that would stay on average if all other quantities were known",
+        {when, output, quantity}},
+       {"total_upper", &s.totalUpper, unit::one, "upper bound", {when, output, quantity}},
+       {"pinched",
+        &s.pinched,
+        unit::one,
+        "share by which the enclosure of the output narrows where the quantity has its nominal value alone; NaN but at "
+        "the times of distributions",
+        {when, output, quantity}},
+       {"samples",
+        &s.samples,
+        unit::none,
+        "independent samples of the polynomials, in each of two sets and one more a quantity, that estimate the "
+        "indices besides",
+        {},
+        allowed::count},
+       {"first_sampled",
+        &s.firstSampled,
+        unit::one,
+        "estimate of the Sobol' index (Saltelli)",
+        {when, output, quantity}},
+       {"first_error",
+        &s.firstError,
+        unit::one,
+        "half the width of its 95 % confidence interval",
+        {when, output, quantity}},
+       {"total_sampled", &s.totalSampled, unit::one, "estimate of the total index (Jansen)", {when, output, quantity}},
+       {"total_error",
+        &s.totalError,
+        unit::one,
+        "half the width of its 95 % confidence interval",
+        {when, output, quantity}}});
 }
 
 std::vector<Field> fieldsOf(DerivativeResult& d) {
   using namespace dimension;
   constexpr std::string_view when = "/derivatives/time";
-  return {{"reached", &d.reached, unit::second, "how far they are known", {}},
-          {"why", &d.why, unit::none, "why no farther; empty if at the horizon", {}},
-          {"stopped", &d.stopped, unit::none, "why the run ended before that; empty if it did not", {}},
-          {"cpu", &d.cpu, unit::second, "CPU time", {}},
-          {"time", &d.time, unit::second, "some output times", {when}},
-          {"lower",
-           &d.lower,
-           unit::none,
-           "proved bound of the output's derivative by the quantity, for all values in the intervals, in the output's "
-           "unit by the quantity's; NaN by what varies in time",
-           {when, output, quantity}},
-          {"upper", &d.upper, unit::none, "upper bound", {when, output, quantity}}};
+  return d.fieldsAnd(
+      {{"time", &d.time, unit::second, "some output times", {when}},
+       {"lower",
+        &d.lower,
+        unit::none,
+        "proved bound of the output's derivative by the quantity, for all values in the intervals, in the output's "
+        "unit by the quantity's; NaN by what varies in time",
+        {when, output, quantity}},
+       {"upper", &d.upper, unit::none, "upper bound", {when, output, quantity}}});
 }
 
 }  // namespace
 
-void describe(DistributionResult& distribution, std::vector<Group>& groups) {
-  groups.push_back(groupOf("/distribution", "how probable values of the outputs are, proved", distribution, fieldsOf));
-  groups.back().makesSense = [&distribution](std::size_t) {
-    return areShares(distribution.lower, distribution.upper) && areShares(distribution.sampled);
+std::string DistributionResult::amount() const {
+  return "at " + countText(static_cast<long long>(time.size()), "time");
+}
+
+void DistributionResult::describe(std::vector<Group>& groups) {
+  groups.push_back(groupOf("/distribution", "how probable values of the outputs are, proved", *this, fieldsOf));
+  groups.back().makesSense = [this](std::size_t) { return areShares(lower, upper) && areShares(sampled); };
+}
+
+void SensitivityResult::describe(std::vector<Group>& groups) {
+  groups.push_back(groupOf("/sensitivity", "whose doing the outputs' variance is, proved", *this, fieldsOf));
+  groups.back().makesSense = [this](std::size_t) {
+    return areShares(firstLower, firstUpper) && areShares(totalLower, totalUpper) && areShares(pinched);
   };
 }
 
-void describe(SensitivityResult& sensitivity, std::vector<Group>& groups) {
-  groups.push_back(groupOf("/sensitivity", "whose doing the outputs' variance is, proved", sensitivity, fieldsOf));
-  groups.back().makesSense = [&sensitivity](std::size_t) {
-    return areShares(sensitivity.firstLower, sensitivity.firstUpper) &&
-           areShares(sensitivity.totalLower, sensitivity.totalUpper) && areShares(sensitivity.pinched);
-  };
-}
-
-void describe(DerivativeResult& derivatives, std::vector<Group>& groups) {
+void DerivativeResult::describe(std::vector<Group>& groups) {
   groups.push_back(
-      groupOf("/derivatives", "how outputs change with the uncertain quantities, proved", derivatives, fieldsOf));
-  groups.back().makesSense = [&derivatives](std::size_t) {
-    for (std::size_t i = 0; i < derivatives.lower.size(); ++i)
-      if (derivatives.lower[i] > derivatives.upper[i]) return false;
+      groupOf("/derivatives", "how outputs change with the uncertain quantities, proved", *this, fieldsOf));
+  groups.back().makesSense = [this](std::size_t) {
+    for (std::size_t i = 0; i < lower.size(); ++i)
+      if (lower[i] > upper[i]) return false;
     return true;
   };
 }

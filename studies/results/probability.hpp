@@ -5,19 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "studies/results/fields.hpp"
+#include "studies/results/part.hpp"
 
 namespace gamut {
 
 /// Bounds of distribution functions, of all outputs but the requirements' margins, at some output times; of all joint
-/// distributions that the quantities may have.
-struct DistributionResult {
-  bool present = false;
+/// distributions that the quantities may have. Its CPU time is that of sensitivities and of all flows for both, too.
+struct DistributionResult final : Part {
   double wanted = 0;                 ///< gap that was aimed at
   double gap = 0;                    ///< the greatest; 1 if some are not known at all
-  std::string why;                   ///< why that is more than was wanted; empty if it is not
-  std::string stopped;               ///< why the run ended before all was done; empty if it did not
-  double cpu = 0;                    ///< s, sensitivities and all flows for both included
   double band = 0;                   ///< half, of Dvoretzky, Kiefer and Wolfowitz at 95 %; 0: none holds
   std::vector<double> time;          ///< s: output times
   std::vector<double> point;         ///< 0, 1, ...: numbers of the values, as many as the longest list has
@@ -31,35 +27,34 @@ struct DistributionResult {
   std::size_t begin(std::size_t at, std::size_t output, std::size_t outputs) const {
     return (at * outputs + output) * point.size();
   }
+
+  std::string title() const override { return "probabilities"; }
+  std::string amount() const override;
+  void describe(std::vector<Group>& groups) override;
 };
 
 /// Bounds of Sobol' indices, at more times, those of the distributions among them; those of a quantity that varies in
 /// time are not known.
-struct SensitivityResult {
-  bool present = false;
-  std::string why;           ///< why there are no Sobol' indices; empty if there are
-  std::vector<double> time;  ///< s: output times
+struct SensitivityResult final : Part {
+  std::vector<double> time;                                                  ///< s: output times
   std::vector<double> meanLower, meanUpper, deviationLower, deviationUpper;  ///< [time][output]
   std::vector<double> firstLower, firstUpper, totalLower, totalUpper;        ///< [time][output][quantity]
   std::vector<double> pinched;  ///< [time][output][quantity], at the times of distributions alone
   std::int64_t samples = 0;     ///< of the polynomials, from which indices are estimated besides
   std::vector<double> firstSampled, firstError, totalSampled, totalError;  ///< [time][output][quantity]
+
+  std::string title() const override { return "sensitivities"; }
+  void describe(std::vector<Group>& groups) override;
 };
 
 /// Enclosures of the derivatives of outputs by uncertain quantities, over all values of these.
-struct DerivativeResult {
-  bool present = false;
-  double reached = 0;                ///< s
-  std::string why;                   ///< why no farther; empty if at the horizon
-  std::string stopped;               ///< why the run ended before that; empty if it did not
-  double cpu = 0;                    ///< s
+struct DerivativeResult final : Part {
   std::vector<double> time;          ///< s: some output times, up to `reached`
   std::vector<double> lower, upper;  ///< [time][output][quantity], in the output's unit by the quantity's; NaN by what
                                      ///< varies in time
-};
 
-void describe(DistributionResult& distribution, std::vector<Group>& groups);
-void describe(SensitivityResult& sensitivity, std::vector<Group>& groups);
-void describe(DerivativeResult& derivatives, std::vector<Group>& groups);
+  std::string title() const override { return "derivatives"; }
+  void describe(std::vector<Group>& groups) override;
+};
 
 }  // namespace gamut

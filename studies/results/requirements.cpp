@@ -20,9 +20,8 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
        allowed::count,
        output},
       {"margins", &r.margins, unit::none, "so many outputs from there on are its margins", {}, {1, 2}},
-      {"met_at_zero", &r.metAtZero, unit::none, "bit i: a margin of zero is enough of margin i", {}, {0, 3}},
       {"word",
-       &r.word,
+       Choice::of(r.word),
        unit::none,
        "guaranteed: \"met\" or \"violated\" (for every value of the uncertain quantities), \"partly\" (violated for "
        "some), \"open\"",
@@ -139,7 +138,36 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
       {"violation_possibility_upper", &r.violationMost, unit::one, "upper bound", {}, allowed::share}};
 }
 
+std::vector<Field> fieldsOfMargin(MarginInfo& m) {
+  using dimension::output;
+  return {{"margin",
+           &m.output,
+           unit::none,
+           "index of the output that is the margin: above zero where the limit is kept",
+           {},
+           allowed::count,
+           output},
+          {"what", &m.what, unit::none, "what is limited, as the study states it", {}},
+          {"above", &m.isAbove, unit::none, "1: it is to be above its limit; 0: below", {}},
+          {"limit_text", &m.limitText, unit::none, "of what, as the study states it", {}},
+          {"limit_unit", &m.unit, unit::none, "unit in which it does; empty where that is no number with a unit", {}},
+          {"strict", &m.isStrict, unit::none, "0: the limit itself is allowed", {}},
+          {"number", &m.isNumber, unit::none, "1: the limit is stated as a number, and what is limited is none", {}},
+          {"limited",
+           &m.limited,
+           unit::none,
+           "index of the output that is limited by a number; that of the margin where there is none",
+           {},
+           allowed::count,
+           output},
+          {"limit", &m.limit, unit::none, "that number, in the unit of that output", {}}};
+}
+
 }  // namespace
+
+void describe(std::vector<MarginInfo>& margins, std::vector<Group>& groups) {
+  groups.push_back(listOf("/margins", "what requirements limit", "/margins/margin", margins, fieldsOfMargin));
+}
 
 void describe(std::vector<RequirementResult>& requirements, std::vector<Group>& groups) {
   groups.push_back(listOf("/requirements", "what the motion is to keep", "/requirements/name", requirements, fieldsOf));

@@ -10,6 +10,16 @@
 
 namespace gamut {
 
+/// What is guaranteed of a requirement.
+enum class Decision : unsigned char {
+  open,
+  met,       ///< of all values
+  violated,  ///< of all values
+  partly     ///< it is violated for some
+};
+template <>
+inline constexpr std::array<std::string_view, 4> words<Decision>{"open", "met", "violated", "partly"};
+
 /// What is only estimated of a requirement whose window lasts longer than anything is proved: nothing of it is proved.
 struct RequirementEstimate {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -28,9 +38,8 @@ struct RequirementResult {
   double from = 0, until = 0;   ///< s: output times
   std::uint64_t margin = 0;     ///< index of the output that is its first margin
   std::int64_t margins = 1;     ///< so many outputs from there on are above zero where it is met
-  std::int64_t metAtZero = 0;   ///< bit i: zero is enough of margin i
   // What is guaranteed.
-  std::string word = "open";     ///< "met", "violated": of all values; "partly": it is violated for some; "open"
+  Decision word = Decision::open;
   std::string why;               ///< why no more is known, one cause; empty if all is
   std::string advice;            ///< what may help: "interval.tightness = 1.005"; empty if nothing is known to
   double metUntil = unknown;     ///< s: of what is always to be, met for every value so long; NaN: not even at first
@@ -57,6 +66,20 @@ struct RequirementResult {
   double violationLeast = 0, violationMost = 1;  ///< bounds of the possibility that it is violated; 1 - that: necessity
 };
 
+/// A margin is an output, above zero where something lies above or below its limit.
+struct MarginInfo {
+  std::uint64_t output = 0;   ///< index of the margin
+  std::string what;           ///< as it is stated: "tip.position.z"
+  bool isAbove = true;        ///< where it is to be; otherwise below
+  std::string limitText;      ///< as it is stated: "0.2 m"
+  std::string unit = {};      ///< in which the limit is stated; empty where it is no number with a unit
+  bool isStrict = true;       ///< otherwise the limit itself is allowed
+  std::uint64_t limited = 0;  ///< index of the output that a line at `limit` bounds; of the margin where none is
+  double limit = 0;           ///< in the unit of that output
+  bool isNumber = false;      ///< the limit is stated as a number, what lies there is none
+};
+
+void describe(std::vector<MarginInfo>& margins, std::vector<Group>& groups);
 void describe(std::vector<RequirementResult>& requirements, std::vector<Group>& groups);
 
 }  // namespace gamut

@@ -11,14 +11,9 @@ namespace gamut {
 std::vector<Group> describe(Results& results) {
   std::vector<Group> groups;
   describe(static_cast<Origin&>(results), groups);
-  for (Answer* answer : results.answers()) answer->describe(groups);
-  describe(results.comparison, groups);
   describe(results.requirements, groups);
-  describe(results.distribution, groups);
-  describe(results.sensitivity, groups);
-  describe(results.derivatives, groups);
-  describe(results.surrogate, groups);
-  describe(results.machine, groups);
+  describe(results.margins, groups);
+  for (Part* part : results.parts()) part->describe(groups);
   return groups;
 }
 
@@ -53,6 +48,13 @@ const RequirementResult* requirementOf(const Results& results, std::size_t outpu
   return found == results.requirements.end() ? nullptr : &*found;
 }
 
+std::span<const MarginInfo> marginsOf(const Results& results, const RequirementResult& requirement) {
+  const std::span<const MarginInfo> all(results.margins);
+  const auto first = std::ranges::find(all, requirement.margin, &MarginInfo::output);
+  const auto count = std::min<std::ptrdiff_t>(all.end() - first, requirement.margins);
+  return all.subspan(static_cast<std::size_t>(first - all.begin()), static_cast<std::size_t>(count));
+}
+
 bool isMargin(const Results& results, std::size_t output) { return requirementOf(results, output) != nullptr; }
 
 double reachedTime(const Results& results) {
@@ -68,10 +70,8 @@ std::string whyEnded(const Results& results) {
     if (!why.empty() && std::ranges::find(reasons, why) == reasons.end()) reasons.push_back(why);
   };
   for (const Answer* answer : results.answers()) add(answer->why);
-  add(results.stochastic.stopped);
-  add(results.distribution.stopped);
-  add(results.derivatives.stopped);
   add(results.comparison.why);
+  for (const Part* part : results.parts()) add(part->stopped);
   add(results.stopped);
   return fmt::format("{}", fmt::join(reasons, "; "));
 }

@@ -2,7 +2,9 @@
 // The report and the verdict are computed from this alone. Each part is described in a file of its own.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,25 +23,37 @@ namespace gamut {
 /// Lower and upper bounds of every output at every output time.
 using Bounds = Envelope;
 
-/// An analysis has its member here, and its row in answers().
+/// An analysis has its member here, and its row in parts().
 struct Results : Origin {
   IntervalResult interval;
   StochasticResult stochastic;
   FuzzyResult fuzzy;
   ComparisonResult comparison;
   std::vector<RequirementResult> requirements;
+  std::vector<MarginInfo> margins;  ///< of all of them, one after the other
   DistributionResult distribution;
   SensitivityResult sensitivity;
   DerivativeResult derivatives;
   SurrogateResult surrogate;
   MachineResult machine;
 
-  std::array<Answer*, 3> answers() { return {&interval, &stochastic, &fuzzy}; }
+  /// What analyses found, in the order of the file.
+  std::array<Part*, 9> parts() {
+    return {&interval,    &stochastic,  &fuzzy,     &comparison, &distribution,
+            &sensitivity, &derivatives, &surrogate, &machine};
+  }
+  std::array<const Part*, 9> parts() const {
+    std::array<const Part*, 9> parts{};
+    std::ranges::copy(const_cast<Results&>(*this).parts(), parts.begin());
+    return parts;
+  }
   std::array<const Answer*, 3> answers() const { return {&interval, &stochastic, &fuzzy}; }
 };
 
 /// The requirement whose margin an output is; null of others.
 const RequirementResult* requirementOf(const Results& results, std::size_t output);
+/// Of one requirement, in turn.
+std::span<const MarginInfo> marginsOf(const Results& results, const RequirementResult& requirement);
 /// Whether an output is there as the margin of a requirement.
 bool isMargin(const Results& results, std::size_t output);
 

@@ -12,7 +12,7 @@ namespace {
 
 /// 1 was without user block, with texts by reference; 2 without the samples' values and motions; 4 without tables; 8
 /// without what stopped a run.
-constexpr int formatVersion = 10;
+constexpr int formatVersion = 11;
 constexpr std::string_view title = "Gamut results, format ";
 
 std::string digestOf(std::string_view content) {

@@ -28,7 +28,6 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
         {},
         allowed::count},
        {"failures", &r.failures, unit::none, "how many of these did not arrive at the horizon", {}, allowed::count},
-       {"stopped", &r.stopped, unit::none, "why not all were followed; empty if they were", {}},
        {"relative_tolerance", &r.relativeTolerance, unit::one, "of the integration; 0 where nothing is integrated", {}},
        {"absolute_tolerance", &r.absoluteTolerance, unit::none, "likewise, in the unit of each state", {}},
        {"pack_width",

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analyses/table.hpp"
-#include "studies/results/answer.hpp"
+#include "studies/results/part.hpp"
 
 namespace gamut {
 
@@ -80,7 +80,6 @@ struct StochasticResult final : Answer {
   std::int64_t packWidth = 1;              ///< samples of one number / packWidth were integrated together
   std::int64_t failures = 0;               ///< of all these and the centre that were not followed to the horizon
   std::vector<FailedSampleResult> failed;  ///< the first thousand of them
-  std::string stopped;                     ///< why not all were followed; empty if they were
   Envelope envelope;                       ///< of all samples, weight or none
   // Errors and bounds of 95 % confidence, each number by itself; NaN where none holds.
   Table mean, meanError, deviation, deviationError;  ///< errors: half the width of the interval

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "analyses/surrogate/packed_surrogate.hpp"
-#include "studies/results/fields.hpp"
+#include "studies/results/part.hpp"
 
 namespace gamut {
 
 /// Of all quantities; of what varies in time nothing depends. Of all outputs but the requirements' margins.
-struct SurrogateResult : PackedSurrogate {
-  bool present = false;
+struct SurrogateResult final : Part, PackedSurrogate {
   std::vector<double> part, term, number;  ///< 0, 1, ...: of parts, of terms, of coefficients
-};
 
-void describe(SurrogateResult& surrogate, std::vector<Group>& groups);
+  std::string title() const override { return "polynomials"; }
+  void describe(std::vector<Group>& groups) override;
+};
 
 }  // namespace gamut

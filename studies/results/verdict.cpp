@@ -39,14 +39,14 @@ class Finder {
     finding_.endsEarly = endsEarly();
     if (finding_.comparesEnclosure && !endedAtStart()) findOverestimation();
     if (isRefuted_ || outside_.distance > 0) {
-      finding_.word = "outside";
+      finding_.word = Agreement::outside;
       finding_.excursion = outside_;
     } else if (isDoubted_ || doubtful_.distance > 0) {
-      finding_.word = "unresolved";
+      finding_.word = Agreement::unresolved;
       finding_.excursion = doubtful_;
     } else {
       finding_.gap = findGap();
-      finding_.word = finding_.gap == Gap::none ? "inside" : "incomplete";
+      finding_.word = finding_.gap == Gap::none ? Agreement::inside : Agreement::incomplete;
     }
     return finding_;
   }
@@ -247,7 +247,7 @@ std::string whyIncomplete(const Results& results, const Finding& finding) {
   std::string why = whyEnded(results);
   if (!why.empty()) return why;
   if (finding.unbounded > 0) return unboundedText(results, finding);
-  if (finding.word != "incomplete" || finding.gap == Gap::noAnswers) return {};
+  if (finding.word != Agreement::incomplete || finding.gap == Gap::noAnswers) return {};
   return finding.missing > 0 ? fmt::format("{} of the numbers to compare are missing", finding.missing)
                              : "an analysis ended before all was done";
 }

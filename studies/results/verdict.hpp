@@ -40,11 +40,7 @@ struct Finding {
     stopped       ///< a limit or an interrupt kept the run from something else
   };
 
-  /// "inside"      every sample lies in the enclosure, over the whole horizon;
-  /// "outside"     at least one does not;
-  /// "unresolved"  at least one may or may not;
-  /// "incomplete"  neither, but there is a gap.
-  std::string word;
+  Agreement word = Agreement::incomplete;
   double reached = 0;   ///< s: compared up to here
   Excursion excursion;  ///< the farthest that led to "outside" or "unresolved"; distance 0 otherwise
   double overestimation = std::numeric_limits<double>::quiet_NaN();  ///< the greatest found; NaN where none was

@@ -16,7 +16,7 @@ bool isProvedInPart(const Results& results) {
   return !results.interval.why.empty() || !results.interval.shortfall.empty() || !results.fuzzy.why.empty() ||
          !results.distribution.stopped.empty() || !results.derivatives.stopped.empty() ||
          std::ranges::any_of(results.requirements,
-                             [](const RequirementResult& r) { return r.word == "open" && !r.why.empty(); });
+                             [](const RequirementResult& r) { return r.word == Decision::open && !r.why.empty(); });
 }
 
 }  // namespace

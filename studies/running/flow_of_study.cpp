@@ -50,7 +50,7 @@ FlowOptions flowOptions(const Study& study, const Problem& problem, int jobs, co
 std::vector<int> marginOutputs(const Study& study) {
   std::vector<int> outputs;
   for (const Requirement& requirement : study.requirements)
-    for (const std::size_t output : requirement.margins) outputs.push_back(static_cast<int>(output));
+    for (const std::size_t output : requirement.marginOutputs()) outputs.push_back(static_cast<int>(output));
   return outputs;
 }
 
@@ -78,12 +78,14 @@ CellQuestion questionOf(const Study& study, const Requirement& requirement, std:
 CellQuestion questionOf(const Study& study, const Requirement& requirement, const std::vector<double>& times,
                         std::size_t rows) {
   CellQuestion question;
-  question.when = requirement.isAlways ? CellQuestion::When::always : CellQuestion::When::eventually;
-  const std::size_t first = study.requirements.front().margins.front();  // models are of margins alone
-  for (const std::size_t output : requirement.margins) question.margins.push_back(static_cast<int>(output - first));
-  question.isMetAtZero = requirement.isMetAtZero;
-  question.from = rowOf(times, requirement.from);
-  question.until = std::min(rowOf(times, requirement.until), rows - 1);
+  question.when = requirement.demand.isAlways ? CellQuestion::When::always : CellQuestion::When::eventually;
+  const std::size_t first = study.requirements.front().firstMargin;  // models are of margins alone
+  for (std::size_t k = 0; k < requirement.margins(); ++k) {
+    question.margins.push_back(static_cast<int>(requirement.firstMargin + k - first));
+    question.isStrict.push_back(requirement.demand.terms[k].isStrict ? 1 : 0);
+  }
+  question.from = rowOf(times, requirement.demand.from);
+  question.until = std::min(rowOf(times, requirement.demand.until), rows - 1);
   return question;
 }
 

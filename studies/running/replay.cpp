@@ -41,12 +41,12 @@ ReplayedSample replay(const Study& study, const Results& results, std::size_t nu
 }
 
 ReplayedSample replayViolation(const Study& study, const Results& results, const RequirementResult& requirement) {
-  if (requirement.word == "met")
+  if (requirement.word == Decision::met)
     throw std::invalid_argument("no motion violates '" + requirement.name + "': it is met for every value");
   if (requirement.isViolatedInSimulation)
     return replay(study, results, static_cast<std::size_t>(requirement.worstSample));
-  const bool isForAll = requirement.word == "violated";
-  if (!isForAll && requirement.word != "partly")
+  const bool isForAll = requirement.word == Decision::violated;
+  if (!isForAll && requirement.word != Decision::partly)
     throw std::invalid_argument("no motion is known that violates '" + requirement.name + "'");
   Problem problem = makeProblem(study);
   takeSwitching(problem, results);

@@ -17,7 +17,7 @@ namespace {
 /// The margin that counts at one time: the least of all.
 double marginOf(const SampleBlock& block, std::size_t i, std::size_t row, const Requirement& requirement) {
   double least = std::numeric_limits<double>::infinity();
-  for (const std::size_t output : requirement.margins) {
+  for (const std::size_t output : requirement.marginOutputs()) {
     const double margin = block(i, row, output);
     if (std::isnan(margin)) return margin;
     least = std::min(least, margin);
@@ -26,9 +26,9 @@ double marginOf(const SampleBlock& block, std::size_t i, std::size_t row, const 
 }
 
 bool isMet(const SampleBlock& block, std::size_t i, std::size_t row, const Requirement& requirement) {
-  for (std::size_t k = 0; k < requirement.margins.size(); ++k) {
-    const double margin = block(i, row, requirement.margins[k]);
-    if (!(requirement.isMetAtZero[k] != 0 ? margin >= 0 : margin > 0)) return false;
+  for (std::size_t k = 0; k < requirement.margins(); ++k) {
+    const double margin = block(i, row, requirement.firstMargin + k);
+    if (!(requirement.demand.terms[k].isStrict ? margin > 0 : margin >= 0)) return false;
   }
   return true;
 }
@@ -42,7 +42,7 @@ bool isMetThroughout(const SampleBlock& block, std::size_t i, std::size_t from, 
     always = always && isMetNow;
     once = once || isMetNow;
   }
-  return requirement.isAlways ? always : once;
+  return requirement.demand.isAlways ? always : once;
 }
 
 struct Margin {
@@ -56,7 +56,7 @@ Margin worstOf(const SampleBlock& block, std::size_t i, std::size_t from, std::s
   Margin worst{marginOf(block, i, from, requirement), from};
   for (std::size_t row = from + 1; row <= until; ++row) {
     const double margin = marginOf(block, i, row, requirement);
-    if (requirement.isAlways ? margin < worst.value : margin > worst.value) worst = {margin, row};
+    if (requirement.demand.isAlways ? margin < worst.value : margin > worst.value) worst = {margin, row};
   }
   return worst;
 }
@@ -88,11 +88,11 @@ void sampleIndependently(Run& run, const std::vector<std::size_t>& requirements)
     for (const std::size_t r : requirements) {
       const Requirement& requirement = run.study.requirements[r];
       RequirementEstimate& estimate = run.results.requirements[r].estimate;
-      const std::size_t from = rowOf(run.study.motion.times, requirement.from),
-                        until = rowOf(run.study.motion.times, requirement.until);
+      const std::size_t from = rowOf(run.study.motion.times, requirement.demand.from),
+                        until = rowOf(run.study.motion.times, requirement.demand.until);
       for (std::size_t i = 0; i < block.size(); ++i) {
         ++estimate.samples;
-        if (std::isnan(block(i, until, requirement.margins.front()))) continue;  // it did not arrive
+        if (std::isnan(block(i, until, requirement.firstMargin))) continue;  // it did not arrive
         if (isMetThroughout(block, i, from, until, requirement)) {
           ++estimate.met;
           continue;
@@ -111,10 +111,10 @@ void noteRequirements(Run& run, const SampleBlock& block) {
   for (std::size_t r = 0; r < run.study.requirements.size(); ++r) {
     const Requirement& requirement = run.study.requirements[r];
     RequirementResult& result = run.results.requirements[r];
-    const std::size_t from = rowOf(run.study.motion.times, requirement.from),
-                      until = rowOf(run.study.motion.times, requirement.until);
+    const std::size_t from = rowOf(run.study.motion.times, requirement.demand.from),
+                      until = rowOf(run.study.motion.times, requirement.demand.until);
     for (std::size_t i = 0; i < block.size(); ++i) {
-      if (std::isnan(block(i, until, requirement.margins.front()))) continue;  // it did not arrive
+      if (std::isnan(block(i, until, requirement.firstMargin))) continue;  // it did not arrive
       const bool violates = !isMetThroughout(block, i, from, until, requirement);
       if (block.hasWeight()) {
         ++result.samples;
@@ -141,7 +141,8 @@ void estimateRequirements(Run& run) {
   if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return;
   std::vector<std::size_t> open;
   for (std::size_t r = 0; r < run.study.requirements.size(); ++r)
-    if (rowOf(run.study.motion.times, run.study.requirements[r].until) >= run.enclosed.reachedTimes) open.push_back(r);
+    if (rowOf(run.study.motion.times, run.study.requirements[r].demand.until) >= run.enclosed.reachedTimes)
+      open.push_back(r);
   if (open.empty() || run.study.horizon == 0) return;
   const double start = processCpuSeconds();
   const Spending spending(run.spent.samples);
@@ -162,7 +163,7 @@ void estimateRequirements(Run& run) {
     }
     boundShare(result.estimate);
     coefficients.push_back(run.worstMargins[r].coefficients());
-    atZero.push_back(std::ranges::find(requirement.isMetAtZero, 0) == requirement.isMetAtZero.end() ? 1 : 0);
+    atZero.push_back(std::ranges::none_of(requirement.demand.terms, &DemandTerm::isStrict) ? 1 : 0);
   }
   const std::vector<double> shares =
       sharesAboveZero(coefficients, atZero, run.problem.motion.uncertain, run.study.dependence, run.results.seed);

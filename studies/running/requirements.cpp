@@ -13,6 +13,7 @@
 #include "analyses/requirements/start.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/running/flow_of_study.hpp"
+#include "studies/running/margins.hpp"
 #include "studies/running/units.hpp"
 #include "studies/words.hpp"
 
@@ -37,8 +38,8 @@ void forgetWhatIsNotKnown(RequirementFinding& finding, bool isAlways) {
 
 /// Besides what is known already: all of it holds.
 void take(RequirementResult& result, const RequirementFinding& finding) {
-  if (result.word != "partly" || finding.isNeverMet)
-    result.word = finding.isAlwaysMet ? "met" : finding.isNeverMet ? "violated" : "open";
+  if (result.word != Decision::partly || finding.isNeverMet)
+    result.word = finding.isAlwaysMet ? Decision::met : finding.isNeverMet ? Decision::violated : Decision::open;
   result.met = std::max(result.met, finding.met);
   result.violated = std::max(result.violated, finding.violated);
   result.factor = std::max(result.factor, finding.factor);
@@ -52,8 +53,9 @@ void take(RequirementResult& result, const RequirementFinding& finding) {
 bool isVague(const Run& run, const RequirementResult& result) {
   constexpr double gap = 0.008;
   const bool isOneProbability = isPlain(run.study);
-  return result.word != "met" && result.word != "violated" &&
-         (result.word == "open" || (isOneProbability && result.probabilityUpper - result.probabilityLower > gap) ||
+  return result.word != Decision::met && result.word != Decision::violated &&
+         (result.word == Decision::open ||
+          (isOneProbability && result.probabilityUpper - result.probabilityLower > gap) ||
           result.violationMost - result.violationLeast > 6 * gap);
 }
 
@@ -77,7 +79,7 @@ void examineModels(Run& run, const FlowModels& models, std::size_t number, doubl
   options.mostWork = work;
   options.cancelled = run.watch.stop();
   RequirementFinding finding = gamut::examine(models, question, quantities, options);
-  if (question.until < whole.until) forgetWhatIsNotKnown(finding, requirement.isAlways);
+  if (question.until < whole.until) forgetWhatIsNotKnown(finding, requirement.demand.isAlways);
   RequirementResult& result = run.results.requirements[number];
   take(result, finding);
   for (const std::vector<double>& values : {finding.violating, finding.doubtful}) {
@@ -87,7 +89,7 @@ void examineModels(Run& run, const FlowModels& models, std::size_t number, doubl
       all.push_back(study.uncertain[q].varies ? RequirementResult::unknown : values[next++]);
   }
   if (finding.violating.empty()) return;  // else the models prove it; a flow of its own will tell when and by how much
-  if (result.word == "open") result.word = "partly";
+  if (result.word == Decision::open) result.word = Decision::partly;
   result.violation = suspects.front().values;
 }
 
@@ -104,13 +106,13 @@ Reason ofMargin(const Run& run, const Requirement& requirement) {
                      fmt::format("interval.tightness = {:.6g}", 1 + (run.study.flow.tightness - 1) / 4)};
   const std::vector<double>& times = run.study.motion.times;
   const IntervalResult& interval = run.results.interval;
-  if (!requirement.isAlways || interval.at.empty()) return loose;
+  if (!requirement.demand.isAlways || interval.at.empty()) return loose;
   struct Least {
     double margin = std::numeric_limits<double>::infinity(), time = 0;
     std::size_t output = 0;
   } at, over;
-  const std::size_t from = rowOf(times, requirement.from), until = rowOf(times, requirement.until);
-  for (const std::size_t output : requirement.margins)
+  const std::size_t from = rowOf(times, requirement.demand.from), until = rowOf(times, requirement.demand.until);
+  for (const std::size_t output : requirement.marginOutputs())
     for (std::size_t row = from; row <= until; ++row) {
       const double lower = interval.at.lower(row, output);
       if (lower < at.margin) at = {lower, times[row], output};
@@ -138,7 +140,8 @@ Reason whyOpen(const Run& run, std::size_t number, const std::string& unsettled)
   const bool isEnclosureShort =
       !run.enclosed.why.empty() &&
       (!run.enclosed.models || run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until);
-  if (isEnclosureShort && result.word == "open" && !result.isViolatedInSimulation)  // whatever came to an end later
+  if (isEnclosureShort && result.word == Decision::open &&
+      !result.isViolatedInSimulation)  // whatever came to an end later
     return {run.enclosed.why, run.enclosed.advice};
   if (*run.watch.stop()) return {run.watch.why(), adviceOf(run.watch)};
   if (result.isViolatedInSimulation && !unsettled.empty()) return {unsettled, ""};
@@ -146,7 +149,7 @@ Reason whyOpen(const Run& run, std::size_t number, const std::string& unsettled)
     return {"no enclosure was asked for", "study.compare with \"interval\""};
   if (isEnclosureShort) return {run.enclosed.why, run.enclosed.advice};
   if (!run.enclosed.models) return {"models of its margins found no room", "a greater limits.enclosure_memory"};
-  if (result.word != "open") return {};
+  if (result.word != Decision::open) return {};
   if (isJustMet(run, number)) return exactly;
   if (run.spent.isAll)
     return {"the work that limits.requirements allows is done",
@@ -182,7 +185,7 @@ bool isMetThroughout(const FlowModels& models, const CellQuestion& question) {
 double metUntil(const Run& run, const FlowModels& models, std::size_t number) {
   const Requirement& requirement = run.study.requirements[number];
   CellQuestion question = questionOf(run.study, requirement, models.at.size());
-  if (!requirement.isAlways || models.at.size() <= question.from) return RequirementResult::unknown;
+  if (!requirement.demand.isAlways || models.at.size() <= question.from) return RequirementResult::unknown;
   std::vector<char> isOwned(static_cast<std::size_t>(models.symbols), 0);
   for (std::size_t q = 0; q < run.study.uncertain.size(); ++q)
     if (const int symbol = models.components[static_cast<std::size_t>(run.problem.motion.slot[q])].symbol; symbol >= 0)
@@ -214,18 +217,16 @@ void proveWhileThereIsRoom(Run& run, const Prove& prove) {
   } catch (const std::bad_alloc&) {
     run.watch.memoryFailed();
     for (RequirementResult& result : run.results.requirements)
-      if (result.word == "open") result.why = run.watch.why();
+      if (result.word == Decision::open) result.why = run.watch.why();
   }
   addCost(run.results, "requirements", processCpuSeconds() - start);
 }
 
-/// Of each margin, whether zero is enough.
-std::vector<char> areMetAtZero(const Study& study, const std::vector<int>& margins) {
-  std::vector<char> result(margins.size(), 0);
+/// Of each margin, in turn, whether it must be above zero; otherwise zero is enough.
+std::vector<bool> areStrict(const Study& study) {
+  std::vector<bool> result;
   for (const Requirement& requirement : study.requirements)
-    for (std::size_t k = 0; k < requirement.margins.size(); ++k)
-      for (std::size_t i = 0; i < margins.size(); ++i)
-        if (static_cast<std::size_t>(margins[i]) == requirement.margins[k]) result[i] = requirement.isMetAtZero[k];
+    for (const DemandTerm& term : requirement.demand.terms) result.push_back(term.isStrict);
   return result;
 }
 
@@ -235,9 +236,9 @@ std::vector<char> areMetAtZero(const Study& study, const std::vector<int>& margi
 std::shared_ptr<const FlowModels> sharpenedByEnclosure(const Run& run, std::shared_ptr<const FlowModels> models) {
   const IntervalResult& interval = run.results.interval;
   const std::vector<int> margins = marginOutputs(run.study);
-  const std::vector<char> isMetAtZero = areMetAtZero(run.study, margins);
+  const std::vector<bool> isStrict = areStrict(run.study);
   const auto isAtZero = [&](std::size_t k, double lower, const Interval& bound) {
-    return isMetAtZero[k] != 0 && lower >= 0 && bound.lower() < 0;
+    return !isStrict[k] && lower >= 0 && bound.lower() < 0;
   };
   std::shared_ptr<FlowModels> sharpened;
   for (std::size_t row = 0; row < models->at.size() && row < interval.at.lower.times; ++row)
@@ -276,9 +277,8 @@ std::shared_ptr<const FlowModels> sharpenedByEnclosure(const Run& run, std::shar
 
 /// Where zero is enough of a margin, it may begin there.
 std::shared_ptr<const FlowModels> sharpenedModels(const Run& run) {
-  const bool isAtZero = std::ranges::any_of(run.study.requirements, [](const Requirement& requirement) {
-    return std::ranges::find(requirement.isMetAtZero, 1) != requirement.isMetAtZero.end();
-  });
+  const std::vector<bool> isStrict = areStrict(run.study);
+  const bool isAtZero = std::ranges::find(isStrict, false) != isStrict.end();
   const std::shared_ptr<const FlowModels> models = sharpenedByEnclosure(run, run.enclosed.models);
   if (!isAtZero || !run.problem.varying.empty() || run.study.horizon == 0) return models;
   return sharpenedAtStart(models, run.study.motion.f, run.study.motion.g, marginOutputs(run.study), run.problem.box);
@@ -318,11 +318,11 @@ void proveAll(Run& run) {
   }
   for (std::size_t r = 0; r < count; ++r) {
     RequirementResult& result = run.results.requirements[r];
-    if (result.word == "met") continue;
+    if (result.word == Decision::met) continue;
     const std::string unsettled = findViolation(run, r, std::move(suspects[r]));
-    result.isViolatedInSimulation = result.word == "open" && isViolatedInSimulation(run, r);
-    if (result.word != "violated") noteReason(run, r, unsettled);
-    if (result.word == "open" && run.enclosed.models) result.metUntil = metUntil(run, *sharpenedModels(run), r);
+    result.isViolatedInSimulation = result.word == Decision::open && isViolatedInSimulation(run, r);
+    if (result.word != Decision::violated) noteReason(run, r, unsettled);
+    if (result.word == Decision::open && run.enclosed.models) result.metUntil = metUntil(run, *sharpenedModels(run), r);
   }
 }
 
@@ -333,15 +333,14 @@ void stateRequirements(Run& run) {
     RequirementResult& result = run.results.requirements.emplace_back();
     result.name = requirement.name;
     result.statement = requirement.statement;
-    result.isAlways = requirement.isAlways;
-    result.from = requirement.from;
-    result.until = requirement.until;
-    result.margin = requirement.margins.front();
-    result.margins = static_cast<std::int64_t>(requirement.margins.size());
-    for (std::size_t k = 0; k < requirement.isMetAtZero.size(); ++k)
-      result.metAtZero |= static_cast<std::int64_t>(requirement.isMetAtZero[k] != 0 ? 1 : 0) << k;
+    result.isAlways = requirement.demand.isAlways;
+    result.from = requirement.demand.from;
+    result.until = requirement.demand.until;
+    result.margin = requirement.firstMargin;
+    result.margins = static_cast<std::int64_t>(requirement.margins());
     result.violation.assign(run.study.uncertain.size(), RequirementResult::unknown);
   }
+  run.results.margins = marginsOf(run.study);
   run.suspects.resize(run.study.requirements.size());
   run.worstMargins.assign(run.study.requirements.size(), FirstOrder(run.problem.motion.uncertain));
 }
@@ -354,10 +353,10 @@ void refuteRequirements(Run& run) {
   proveWhileThereIsRoom(run, [&] {
     for (std::size_t r = 0; r < run.results.requirements.size(); ++r) {
       RequirementResult& result = run.results.requirements[r];
-      if (result.word != "open") continue;
+      if (result.word != Decision::open) continue;
       const std::string unsettled = findViolation(run, r, {});
-      result.isViolatedInSimulation = result.word == "open" && isViolatedInSimulation(run, r);
-      if (result.word != "open")
+      result.isViolatedInSimulation = result.word == Decision::open && isViolatedInSimulation(run, r);
+      if (result.word != Decision::open)
         result.why.clear(), result.advice.clear();
       else if (result.isViolatedInSimulation && !unsettled.empty())
         result.why = unsettled, result.advice.clear();

@@ -62,7 +62,7 @@ void describeOrigin(Run& run) {
   origin.host = printable(hostName());
   origin.date = dateTime();
   origin.libraries = libraryVersions();
-  origin.outputs = study.outputs;
+  origin.outputs.assign(study.outputs.begin(), study.outputs.end());
   origin.horizon = study.horizon;
   origin.time = study.motion.times;
   origin.dependence = dependenceText(study);

@@ -27,7 +27,7 @@ std::vector<S> assembledOutputs(const Study& study, const Problem& problem, cons
   Assembly<S> assembly(study.mechanism, problem.freeParameters, values.subspan(problem.states));
   assembly.setMotion(values.first(problem.states));
   std::vector<S> outputs;
-  for (const std::string& output : problem.outputs) outputs.push_back(assembly.output(output));
+  for (const Expression& output : outputExpressions(study)) outputs.push_back(assembly.output(output));
   return outputs;
 }
 

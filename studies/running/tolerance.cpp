@@ -87,7 +87,7 @@ class Finder {
             ? modelImage(study_.motion.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled)
             : modelMargins(study_, ownOptions(), box).models();
     for (const Requirement& requirement : study_.requirements)
-      if (models && models->at.size() > rowOf(study_.motion.times, requirement.until) &&
+      if (models && models->at.size() > rowOf(study_.motion.times, requirement.demand.until) &&
           Cells(*models, questionOf(study_, requirement, models->at.size())).whole()->verdict() ==
               Cell::Verdict::violated)
         return requirement.name;
@@ -128,10 +128,10 @@ class Finder {
     RequirementOptions own;
     own.cancelled = options_.cancelled;
     for (const Requirement& requirement : study_.requirements) {
-      const std::size_t until = rowOf(study_.motion.times, requirement.until);
+      const std::size_t until = rowOf(study_.motion.times, requirement.demand.until);
       const bool reaches = models->at.size() > until;
       const CellQuestion question = questionOf(study_, requirement, models->at.size());
-      if (!reaches && (requirement.isAlways || question.from >= models->at.size())) return {0, why};
+      if (!reaches && (requirement.demand.isAlways || question.from >= models->at.size())) return {0, why};
       const double part = guaranteedFactor(*models, question, quantities, deviates, own);
       if (part < trial.proved) trial = {part, requirement.name};
     }

@@ -53,16 +53,16 @@ class ThinFlows {
     constexpr int mostRounds = 6;
     for (int round = 0; round <= (looksBetween ? mostRounds : 0) && !*run_.watch.stop(); ++round) {
       const Thin thin = thinAt(*problem, times);
-      if (!thin.models || thin.models->at.size() <= rowOf(thin.times, requirement_.from)) return false;
+      if (!thin.models || thin.models->at.size() <= rowOf(thin.times, requirement_.demand.from)) return false;
       const CellQuestion question = questionOf(thin);
-      const bool isWhole = thin.times[question.until] == requirement_.until;
+      const bool isWhole = thin.times[question.until] == requirement_.demand.until;
       const Cell::Verdict verdict = Cells(*thin.models, question).whole()->verdict();
       // Once is enough of what must be always met; of what must be met once all of the window counts.
-      if (verdict == Cell::Verdict::violated && (isWhole || requirement_.isAlways)) {
+      if (verdict == Cell::Verdict::violated && (isWhole || requirement_.demand.isAlways)) {
         note(thin, question);
         return true;
       }
-      if (verdict == Cell::Verdict::met && (isWhole || !requirement_.isAlways)) return false;
+      if (verdict == Cell::Verdict::met && (isWhole || !requirement_.demand.isAlways)) return false;
       if (!addDoubtful(thin, question, times)) return false;
     }
     return false;
@@ -160,7 +160,7 @@ class ThinFlows {
         least = std::min(least, over.lower());
         greatest = std::min(greatest, over.upper());
       }
-      const double doubt = requirement_.isAlways ? -least : greatest;
+      const double doubt = requirement_.demand.isAlways ? -least : greatest;
       if (doubt >= 0 && thin.times[row] - thin.times[row - 1] > finest * run_.study.horizon)
         gaps.push_back({doubt, row});
     }
@@ -187,16 +187,16 @@ class ThinFlows {
         Interval bound = Interval::empty();
         for (const auto& snapshot : thin.models->at[row])
           bound = hull(bound, snapshot->outputs[static_cast<std::size_t>(question.margins[k])].bound);
-        if (question.isMetAtZero[k] != 0 ? !(bound.upper() < 0) : !(bound.upper() <= 0)) continue;
+        if (question.isStrict[k] != 0 ? !(bound.upper() <= 0) : !(bound.upper() < 0)) continue;
         const bool isFurther =
-            found && (requirement_.isAlways ? bound.upper() >= found->upper() : bound.upper() <= found->upper());
+            found && (requirement_.demand.isAlways ? bound.upper() >= found->upper() : bound.upper() <= found->upper());
         if (found && isBetween == isFoundBetween ? isFurther : found && isBetween) continue;
         found = bound;
         isFoundBetween = isBetween;
         result_.violationTime = thin.times[row];
       }
     }
-    result_.isViolatedBetween = requirement_.isAlways && (!found || isFoundBetween);
+    result_.isViolatedBetween = requirement_.demand.isAlways && (!found || isFoundBetween);
     if (!found) return;
     result_.violationLower = found->lower();
     result_.violationUpper = found->upper();
@@ -239,7 +239,7 @@ double doubtOf(const Run& run, std::size_t number) {
   double doubt = 0;
   if (result.worstSample < 0) return doubt;
   const std::size_t row = rowOf(run.study.motion.times, result.worstTime);
-  for (const std::size_t output : run.study.requirements[number].margins) {
+  for (const std::size_t output : run.study.requirements[number].marginOutputs()) {
     if (const Table& error = stochastic.error; !error.empty()) doubt = std::fmax(doubt, error(row, output));
     const Envelope& all = stochastic.envelope;
     if (all.empty()) continue;
@@ -279,9 +279,9 @@ std::string findViolation(Run& run, std::size_t number, std::vector<Suspect> oth
     if (!isProved) return false;
     result.violation = values;
     result.violationSample = suspect.sample;
-    if (result.word == "open") result.word = "partly";
+    if (result.word == Decision::open) result.word = Decision::partly;
     if (run.study.uncertain.empty()) {  // there is no other motion
-      result.word = "violated";
+      result.word = Decision::violated;
       result.violated = 1;
       result.probabilityUpper = result.probabilityLower = 0;
     }
@@ -295,7 +295,8 @@ std::string findViolation(Run& run, std::size_t number, std::vector<Suspect> oth
     if (suspect.violates && (-suspect.margin > doubt || ++doubtful <= mostDoubtful) && tries(suspect, false)) return {};
   for (const Suspect& suspect : others)
     if (tries(suspect, true)) return {};
-  if (result.word == "open" && !samples.empty() && !samples.front().violates && tries(samples.front(), true)) return {};
+  if (result.word == Decision::open && !samples.empty() && !samples.front().violates && tries(samples.front(), true))
+    return {};
   return why;
 }
 

@@ -65,8 +65,8 @@ class Campaign {
     for (std::size_t i = 0; i < std::size(names); ++i)
       if (!isNew && folder_.read(names[i]) != old_[i]) fail(what, std::string(names[i]) + " has changed");
     try {
-      if (const std::string word = judge(readResults(folder_.path("s.h5"))).word; word != "inside")
-        fail(what, "the verdict became " + word);
+      if (const Agreement word = judge(readResults(folder_.path("s.h5"))).word; word != Agreement::inside)
+        fail(what, "the verdict became " + std::string(wordOf(word)));
     } catch (const ResultsFileError& error) {
       fail(what, error.what());
     }
@@ -82,7 +82,7 @@ class Campaign {
   void expectPart(const std::string& what, const std::string& path) {
     try {
       const Results results = readResults(path);
-      if (results.stopped.empty() || judge(results).word != "incomplete") fail(what, path + " is no part");
+      if (results.stopped.empty() || judge(results).word != Agreement::incomplete) fail(what, path + " is no part");
     } catch (const ResultsFileError& error) {
       fail(what, error.what());
     }

@@ -133,7 +133,7 @@ TEST_F(ExtendCommand, SaysThatABoundIsLeft) {
   writeResults(tampered, folder_.path("s.h5"));
   const Outcome extended = gamut("extend s.h5 --samples 64");
   EXPECT_EQ(extended.exitCode, 1);
-  EXPECT_EQ(results().comparison.verdict, "outside");
+  EXPECT_EQ(results().comparison.verdict, Agreement::outside);
 }
 
 TEST_F(ExtendCommand, NotesThatSamplesAreNotTheSame) {

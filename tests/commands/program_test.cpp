@@ -348,7 +348,7 @@ TEST_F(Program, RunsWithOneAnalysisAlone) {
 TEST_F(Program, CheckFindsASampleOutsideItsEnclosureInTheStoredNumbers) {
   Results results = sampleResults();
   results.interval.at.upper(0, 0) = 0.4;  // the envelope there reaches to 0.85
-  results.comparison.verdict = "inside";
+  results.comparison.verdict = Agreement::inside;
   results.comparison.disputed.clear();
   writeResults(results, folder_.path("r.h5"));
   const Outcome run = gamut("check r.h5");

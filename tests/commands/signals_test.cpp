@@ -51,7 +51,7 @@ class Signals : public FromOutside {
   void expectPart(const std::string& name) const {
     const Results results = readResults(folder_.path(name));
     EXPECT_EQ(results.stopped, "the run was interrupted");
-    EXPECT_EQ(judge(results).word, "incomplete");
+    EXPECT_EQ(judge(results).word, Agreement::incomplete);
     for (const DisputedSample& sample : results.comparison.disputed) EXPECT_FALSE(sample.outside);
     EXPECT_EQ(gamut("check " + name).exitCode, 3);
   }

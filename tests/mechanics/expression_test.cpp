@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <map>
+#include <tuple>
+#include <utility>
 
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/fuzzy.hpp"
@@ -103,6 +105,47 @@ TEST(Expression, NamesStandInTheOrderOfTheirFirstUse) {
   EXPECT_THAT(Expression::parse("2 m").names(), IsEmpty());
   EXPECT_TRUE(Expression(3.0).isConstant());
   EXPECT_EQ(Expression::named("k", 2.0).evaluate<double>(valueOf), 20);
+}
+
+TEST(Expression, IsMadeOfOthersByName) {
+  const Expression sum = Expression::parse("a + 2*b");
+  const Expression whole =
+      Expression::parse("c^2 - b").with([&](const std::string& name) { return name == "c" ? &sum : nullptr; });
+  EXPECT_THAT(whole.names(), ElementsAre("a", "b"));
+  EXPECT_EQ(whole.evaluate<double>([](const std::string& name) { return name == "a" ? 1.0 : 3.0; }), 46);
+  EXPECT_EQ((-Expression::parse("a")).evaluate<double>([](const std::string&) { return 2.0; }), -2);
+  EXPECT_TRUE((-Expression::parse("3 mm")).amount()->value == mpq_class(-3, 1000));
+  EXPECT_EQ(Expression::parse("abs(a - b)").insideOfAbs()->names().size(), 2U);
+  EXPECT_FALSE(Expression::parse("abs(a) - b").insideOfAbs());
+}
+
+TEST(Expression, IsAffineInWhatItsFormSays) {
+  const auto form = [](const char* whole, const char* part) {
+    return Expression::parse(whole).affineIn(Expression::parse(part));
+  };
+  for (const auto& [whole, part, factor, offset] : {std::tuple("x - 2 m", "x", 1.0, -2.0),
+                                                    {"2 m - x", "x", -1.0, 2.0},
+                                                    {"3 - (-(x))", "x", 1.0, 3.0},
+                                                    {"(2*x - 1)/4 + x", "x", 1.5, -0.25},
+                                                    {"5 - 2*hypot(x, y)", "hypot(x, y)", -2.0, 5.0},
+                                                    {"x^2 + 1", "x^2", 1.0, 1.0},
+                                                    {"a + x - 1", "a + x", 1.0, -1.0}}) {
+    const auto found = form(whole, part);
+    ASSERT_TRUE(found) << whole;
+    EXPECT_TRUE(isEqual(found->factor, Interval(factor))) << whole;
+    EXPECT_TRUE(isEqual(found->offset, Interval(offset))) << whole;
+  }
+  for (const auto& [whole, part] : {std::pair("x - y", "x"),
+                                    {"x^2", "x"},
+                                    {"x*x", "x"},
+                                    {"1/x", "x"},
+                                    {"x - x", "x"},
+                                    {"x^3", "x^2"},
+                                    {"sin(x)", "x"},
+                                    {"0*x + 1", "x"},
+                                    {"x/(y - y)", "x"},
+                                    {"3", "x"}})
+    EXPECT_FALSE(form(whole, part)) << whole;
 }
 
 const std::map<std::string, std::string> units = {{"rod.length", "m"}, {"mass", "kg"},   {"angle", "rad"},

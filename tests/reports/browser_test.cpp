@@ -80,10 +80,11 @@ TEST_F(Browser, WritesLimitsOnTheirBaselines) {
   RequirementResult& requirement = results.requirements.emplace_back();
   requirement.name = "clearance";
   requirement.statement = "always a > 0";
-  requirement.word = "met";
+  requirement.word = Decision::met;
   requirement.isAlways = true;
   requirement.margin = 1;
   requirement.margins = 1;
+  results.margins.push_back({1, "a", true, "0 rad", "rad", true, 1, 0, true});
   requirement.until = results.horizon;
   requirement.violation.assign(results.uncertain.size(), std::numeric_limits<double>::quiet_NaN());
   const std::string page =

@@ -30,7 +30,7 @@ class DamagedResults : public ::testing::Test {
   }
 
   /// What reading says; "" if it reads.
-  std::string complaint(const std::string& bytes, std::string& verdict) const {
+  std::string complaint(const std::string& bytes, Agreement& verdict) const {
     folder_.write("d.h5", bytes);
     try {
       verdict = judge(readResults(folder_.path("d.h5"))).word;
@@ -45,9 +45,9 @@ class DamagedResults : public ::testing::Test {
 };
 
 TEST_F(DamagedResults, AreRefusedWhateverWasDamaged) {
-  std::string verdict;
+  Agreement verdict = Agreement::incomplete;
   ASSERT_EQ(complaint(whole_, verdict), "");
-  ASSERT_EQ(verdict, "inside");
+  ASSERT_EQ(verdict, Agreement::inside);
   std::mt19937_64 random(1);
   for (int i = 0; i < 250; ++i) {
     const std::string bytes = damaged(whole_, random);
@@ -63,9 +63,9 @@ TEST_F(DamagedResults, AreNoVerdictEvenIfTheirDigestIsRight) {
   std::mt19937_64 random(2);
   int refused = 0;
   for (int i = 0; i < 250; ++i) {
-    std::string verdict = "inside";
+    Agreement verdict = Agreement::inside;
     const std::string message = complaint(sealed(damaged(whole_, random)), verdict);
-    EXPECT_EQ(verdict, "inside") << "damage number " << i;
+    EXPECT_EQ(verdict, Agreement::inside) << "damage number " << i;
     EXPECT_THAT(message, Not(HasSubstr("\n"))) << i;
     refused += message.empty() ? 0 : 1;
   }
@@ -75,7 +75,8 @@ TEST_F(DamagedResults, AreNoVerdictEvenIfTheirDigestIsRight) {
 TEST_F(DamagedResults, DoNotCrashEvenIfHdf5sChecksumsAreRight) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 250; ++i) {
-    std::string bytes = whole_, verdict;
+    std::string bytes = whole_;
+    Agreement verdict = Agreement::incomplete;
     // Headers are a small part of the file; damage meets them here.
     for (int flips = 0; flips < 3; ++flips) {
       const std::size_t header = bytes.find("OHDR", random() % bytes.size());
@@ -87,7 +88,7 @@ TEST_F(DamagedResults, DoNotCrashEvenIfHdf5sChecksumsAreRight) {
 }
 
 TEST_F(DamagedResults, SayWhatIsWrong) {
-  std::string verdict;
+  Agreement verdict = Agreement::incomplete;
   const std::string path = folder_.path("d.h5"), expected = "; expected the file as gamut run wrote it";
   std::string flipped = whole_;
   flipped.back() ^= 1;
@@ -96,9 +97,9 @@ TEST_F(DamagedResults, SayWhatIsWrong) {
             path + ": damaged: its 5000 bytes are not as many as it says" + expected);
   EXPECT_EQ(complaint(sealed(whole_.substr(0, 600)), verdict), path + ": damaged: the file cannot be read" + expected);
   std::string newer = whole_;
-  newer.replace(newer.find("format 10"), 9, "format 11");
+  newer.replace(newer.find("format 11"), 9, "format 12");
   EXPECT_EQ(complaint(newer, verdict),
-            path + ": written in format 11 by a newer build of gamut; expected format 10, so use that build");
+            path + ": written in format 12 by a newer build of gamut; expected format 11, so use that build");
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ Results pendulum(std::size_t times, std::size_t outputs, std::size_t levels) {
   fuzzy.transformation.present = true;
   fuzzy.transformation.method = "extended";
   interval.at = interval.over = stochastic.envelope = Bounds(times, outputs);
-  results.comparison.verdict = "inside";
+  results.comparison.verdict = Agreement::inside;
   results.comparison.overestimation = Table(times, outputs);
   for (std::size_t level = 0; level < levels; ++level) {
     fuzzy.alpha.push_back(static_cast<double>(level) / static_cast<double>(levels - 1));

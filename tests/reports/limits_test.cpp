@@ -7,6 +7,7 @@
 
 #include "reports/drawing/paper.hpp"
 #include "reports/report.hpp"
+#include "studies/words.hpp"
 #include "tests/reports/example_results.hpp"
 #include "tests/reports/page_text.hpp"
 
@@ -24,8 +25,17 @@ void require(Results& results, const std::string& name, std::size_t output, int 
   requirement.margin = results.outputs.size();
   requirement.until = results.horizon;
   requirement.violation.assign(results.uncertain.size(), std::nan(""));
-  const std::string quantity = results.outputs[output].quantity;
-  results.outputs.push_back({name, sign > 0 ? quantity + " - 1" : "1 - " + quantity, results.outputs[output].unit});
+  const std::string unit = results.outputs[output].unit;
+  results.margins.push_back({.output = results.outputs.size(),
+                             .what = results.outputs[output].name,
+                             .isAbove = sign > 0,
+                             .limitText = inUnit(numberText(limit, 6), unit),
+                             .unit = unit,
+                             .isStrict = true,
+                             .limited = output,
+                             .limit = limit,
+                             .isNumber = true});
+  results.outputs.push_back({name, "", unit});
   const std::size_t was = results.outputs.size() - 1;
   const auto widen = [&](Table& table) {
     if (table.empty()) return;
@@ -57,27 +67,25 @@ void require(Results& results, const std::string& name, std::size_t output, int 
   results.comparison.maximumOf.push_back(1.004);
 }
 
-/// A limit that is stated in degrees is said so beside an output in rad, and lies where it belongs in one of degrees.
-TEST(Limits, AreDrawnInDegreesWhereTheyAreStatedOrShownSo) {
+/// A limit that is stated in another unit is said so beside the output's; of a number of degrees, as it is stated.
+TEST(Limits, AreToldAsTheyAreStated) {
   Results results = example::pendulum(61, 2);
   require(results, "flat", 0, -1, 0.7853981633974483);
-  results.requirements[0].statement = "always 'shoulder angle' < 45 deg";
-  std::string page = renderReport(results);
-  EXPECT_THAT(page, HasSubstr("limit 45 deg (0.785398 rad)"));
-  results.requirements[0].statement = "always 'shoulder angle' < 0.785398 rad";
   EXPECT_THAT(renderReport(results), ::testing::AllOf(HasSubstr("limit 0.785398 rad"), Not(HasSubstr(" deg"))));
-  for (Bounds* bounds : {&results.interval.at, &results.interval.over, &results.stochastic.envelope})
-    for (Table* table : {&bounds->lower, &bounds->upper})
-      for (std::size_t i = 0; i < table->times; ++i) (*table)(i, 0) *= 180 / 3.141592653589793;
+  MarginInfo& margin = results.margins[0];
+  margin.limitText = "45 deg", margin.unit = "deg";
+  EXPECT_THAT(renderReport(results), HasSubstr("limit 45 deg (0.785398 rad)"));
+  margin.limitText = "90 deg";  // of twice the output
+  EXPECT_THAT(renderReport(results), HasSubstr("limit 45 deg (0.785398 rad)"));
+  margin.limitText = "785.398 mrad", margin.unit = "mrad";
+  EXPECT_THAT(renderReport(results), HasSubstr("limit 785.398 mrad (0.785398 rad)"));
+  margin.limit = 0, margin.limitText = "0 mrad";
+  EXPECT_THAT(renderReport(results), HasSubstr(">limit 0 rad<"));
   results.outputs[0].unit = "1";
-  results.outputs[0].quantity = "shoulder.angle / (1 deg)";
-  results.requirements[0].statement = "always shoulder.angle < 45 deg";
-  const std::vector<Limit> limits = limitsOf(results);
-  ASSERT_EQ(limits.size(), 1u);
-  EXPECT_EQ(limits[0].output, 0u);
-  EXPECT_NEAR(limits[0].value, 45, 1e-6);
-  page = renderReport(results);
-  EXPECT_THAT(page, ::testing::AllOf(HasSubstr(">limit 45 deg<"), Not(HasSubstr("0.785398"))));
+  margin.limit = 45, margin.limitText = "45 deg", margin.unit = "deg";
+  EXPECT_THAT(renderReport(results), ::testing::AllOf(HasSubstr(">limit 45 deg<"), Not(HasSubstr("0.785398"))));
+  margin.limitText = "90 deg";
+  EXPECT_THAT(renderReport(results), HasSubstr(">limit 45<"));
 }
 
 /// The name of a limit stands at its end, unless a curve goes through there.
@@ -121,26 +129,9 @@ TEST(Limits, AreThoseOfTheOutputsWhoseMarginsTheyMake) {
   EXPECT_EQ(limits[1].value, 4.25);
   EXPECT_TRUE(isMargin(results, 2));
   EXPECT_FALSE(isMargin(results, 1));
-  results.outputs[3].quantity = "of something else";
+  results.margins[1].limited = 3, results.margins[1].limit = 0;  // of no output: the margin itself is bounded
   EXPECT_EQ(limitsOf(results)[1].output, 3u);
   EXPECT_EQ(limitsOf(results)[1].value, 0);
-}
-
-/// Where an output is symmetric about zero, its numbers do not tell an upper limit from a lower one.
-TEST(Limits, LieOnTheirSideOfWhatIsSymmetric) {
-  Results results = example::pendulum(61, 2);
-  Bounds& at = results.interval.at;
-  for (std::size_t i = 0; i < at.lower.times; ++i) at.lower(i, 0) = -at.upper(i, 0);
-  require(results, "below", 0, -1, 30);
-  require(results, "above", 0, 1, -20);
-  const std::vector<Limit> limits = limitsOf(results);
-  ASSERT_EQ(limits.size(), 2U);
-  EXPECT_EQ(limits[0].output, 0U);
-  EXPECT_EQ(limits[0].value, 30);
-  EXPECT_EQ(limits[1].value, -20);
-  // As margins of |x| < 20 are written.
-  results.outputs.back().quantity = "20 rad - (-((" + results.outputs[0].quantity + ")))";
-  EXPECT_EQ(limitsOf(results)[1].value, -20);
 }
 
 TEST(Limits, NearestIsThatWithTheLeastRoomInSharesOfItsVariation) {
@@ -203,7 +194,7 @@ TEST(Report, RanksWhereTheMarginIsLeast) {
       s.totalUpper[(at * outputs) * 2 + q] = share;
     }
   for (const double time : {1.0, 3.0}) {
-    results.requirements[0].word = "partly";
+    results.requirements[0].word = Decision::partly;
     results.requirements[0].violationTime = time;
     const std::string page = renderReport(results);
     EXPECT_THAT(page, HasSubstr("\u201cshoulder angle\u201d at " + std::string(time == 1 ? "1 s" : "3 s")));

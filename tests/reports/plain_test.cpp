@@ -19,15 +19,29 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-Results withRequirement(const std::string& statement, const std::string& word) {
+MarginInfo above(const std::string& what, const std::string& limit, const std::string& unit = "") {
+  return {0, what, true, limit, unit, true, 0, 0, true};
+}
+
+MarginInfo below(const std::string& what, const std::string& limit, const std::string& unit = "") {
+  MarginInfo margin = above(what, limit, unit);
+  margin.isAbove = false;
+  return margin;
+}
+
+/// Its margins are outputs from the first on.
+Results withRequirement(std::vector<MarginInfo> margins, Decision word, bool isAlways = true) {
   Results results = example::pendulum();
   RequirementResult& requirement = results.requirements.emplace_back();
   requirement.name = "clearance";
-  requirement.statement = statement;
-  requirement.isAlways = statement.starts_with("always");
+  requirement.statement = "as it was written";
+  requirement.isAlways = isAlways;
   requirement.until = results.horizon;
   requirement.word = word;
   requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  requirement.margins = static_cast<std::int64_t>(margins.size());
+  for (std::size_t k = 0; k < margins.size(); ++k) margins[k].output = k;
+  results.margins = std::move(margins);
   return results;
 }
 
@@ -36,30 +50,31 @@ std::string sentenceOf(const Results& results) { return plainRequirements(result
 std::string summaryOf(const Results& results) { return plainSummary(results, judge(results), 0); }
 
 TEST(PlainRequirement, SaysWhatStaysWhere) {
-  EXPECT_EQ(sentenceOf(withRequirement("always tip.z > 0.2 m", "met")),
+  EXPECT_EQ(sentenceOf(withRequirement({above("tip.z", "0.2 m")}, Decision::met)),
             "\u201ctip.z\u201d stays above 0.2 m in every case.");
-  EXPECT_EQ(sentenceOf(withRequirement("always 0.2 m >= 'tip height'", "met")),
+  EXPECT_EQ(sentenceOf(withRequirement({below("'tip height'", "0.2 m")}, Decision::met)),
             "\u201ctip height\u201d stays below 0.2 m in every case.");
-  EXPECT_EQ(sentenceOf(withRequirement("always -5 deg < a < 6 deg", "met")),
+  EXPECT_EQ(sentenceOf(withRequirement({above("a", "-5 deg"), below("a", "6 deg")}, Decision::met)),
             "\u201ca\u201d stays between -5 deg and 6 deg in every case.");
-  EXPECT_EQ(sentenceOf(withRequirement("always 6 deg > a > -5 deg", "met")),
+  EXPECT_EQ(sentenceOf(withRequirement({below("a", "6 deg"), above("a", "-5 deg")}, Decision::met)),
             "\u201ca\u201d stays between -5 deg and 6 deg in every case.");
-  EXPECT_EQ(sentenceOf(withRequirement("always abs('a b') < 6 deg", "met")),
-            "\u201ca b\u201d stays between -6 deg and 6 deg in every case.");
-  EXPECT_EQ(sentenceOf(withRequirement("always abs(a) > 6 deg", "met")),
-            "The size of \u201ca\u201d stays above 6 deg in every case.");
-  EXPECT_EQ(sentenceOf(withRequirement("eventually a < 1", "met")),
+  EXPECT_EQ(sentenceOf(withRequirement({above("abs(a)", "6 deg")}, Decision::met)),
+            "\u201cabs(a)\u201d stays above 6 deg in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement({below("a", "1")}, Decision::met, false)),
             "\u201ca\u201d falls below 1, at least once, in every case.");
 }
 
 TEST(PlainRequirement, IsNamedWhereItsFormulaSaysMore) {
-  EXPECT_EQ(sentenceOf(withRequirement("always a > b", "met")), "\u201cclearance\u201d is kept in every case.");
-  EXPECT_EQ(sentenceOf(withRequirement("always", "met")), "\u201cclearance\u201d is kept in every case.");
-  EXPECT_EQ(sentenceOf(withRequirement("always 'a > 1' > 2", "met")), "\u201ca > 1\u201d stays above 2 in every case.");
+  MarginInfo ofTwo = above("a", "b");
+  ofTwo.isNumber = false;
+  EXPECT_EQ(sentenceOf(withRequirement({ofTwo}, Decision::met)), "\u201cclearance\u201d is kept in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement({}, Decision::met)), "\u201cclearance\u201d is kept in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement({above("'a > 1'", "2")}, Decision::met)),
+            "\u201ca > 1\u201d stays above 2 in every case.");
 }
 
 TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
-  Results results = withRequirement("always a > 1 m", "partly");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::partly);
   EXPECT_EQ(sentenceOf(results), "In some cases, \u201ca\u201d does not stay above 1 m.");
   RequirementResult& requirement = results.requirements.front();
   requirement.violation.front() = 2.3;
@@ -85,8 +100,8 @@ TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
 }
 
 TEST(PlainRequirement, TellsAMissInTheMarginsUnitAndInThatOfTheLimit) {
-  const auto sentence = [](const std::string& statement, const char* unit = "rad") {
-    Results results = withRequirement(statement, "partly");
+  const auto sentence = [](std::vector<MarginInfo> margins, const char* unit = "rad") {
+    Results results = withRequirement(std::move(margins), Decision::partly);
     results.outputs[results.requirements.front().margin].unit = unit;
     RequirementResult& requirement = results.requirements.front();
     requirement.violation.front() = 2.3;
@@ -94,19 +109,24 @@ TEST(PlainRequirement, TellsAMissInTheMarginsUnitAndInThatOfTheLimit) {
     requirement.violationLower = requirement.violationUpper = -0.25;
     return sentenceOf(results);
   };
-  EXPECT_THAT(sentence("always a < 45 deg"), EndsWith(" it misses the limit by 0.25 rad (14.3 deg) at 0.5 s."));
-  EXPECT_THAT(sentence("always 250mrad>=a"), EndsWith(" it misses the limit by 0.25 rad (250 mrad) at 0.5 s."));
-  EXPECT_THAT(sentence("always -1e1 deg <= 'a b' <= 1e1 deg"), EndsWith(" by 0.25 rad (14.3 deg) at 0.5 s."));
-  EXPECT_THAT(sentence("always a < 45 deg", "deg"), EndsWith(" it misses the limit by 0.25 deg at 0.5 s."));
-  EXPECT_THAT(sentence("always a < 1 rad", "deg"), EndsWith(" by 0.25 deg (0.00436 rad) at 0.5 s."));
-  EXPECT_THAT(sentence("always a < 1.3 kN", "N"), EndsWith(" it misses the limit by 0.25 N (0.00025 kN) at 0.5 s."));
-  for (const char* statement : {"always a < 2", "always a < 2 mm", "always a < 2 b", "always 2 deg*b < a"})
-    EXPECT_THAT(sentence(statement), EndsWith(" it misses the limit by 0.25 rad at 0.5 s.")) << statement;
+  EXPECT_THAT(sentence({below("a", "45 deg", "deg")}),
+              EndsWith(" it misses the limit by 0.25 rad (14.3 deg) at 0.5 s."));
+  EXPECT_THAT(sentence({below("a", "250mrad", "mrad")}),
+              EndsWith(" it misses the limit by 0.25 rad (250 mrad) at 0.5 s."));
+  EXPECT_THAT(sentence({above("a", "-1e1 deg", "deg"), below("a", "1e1 deg", "deg")}),
+              EndsWith(" by 0.25 rad (14.3 deg) at 0.5 s."));
+  EXPECT_THAT(sentence({below("a", "45 deg", "deg")}, "deg"), EndsWith(" it misses the limit by 0.25 deg at 0.5 s."));
+  EXPECT_THAT(sentence({below("a", "45°", "°")}, "deg"), EndsWith(" it misses the limit by 0.25 deg at 0.5 s."));
+  EXPECT_THAT(sentence({below("a", "1 rad", "rad")}, "deg"), EndsWith(" by 0.25 deg (0.00436 rad) at 0.5 s."));
+  EXPECT_THAT(sentence({below("a", "1.3 kN", "kN")}, "N"),
+              EndsWith(" it misses the limit by 0.25 N (0.00025 kN) at 0.5 s."));
+  for (const char* unit : {"", "mm", "rad"})
+    EXPECT_THAT(sentence({below("a", "2", unit)}), EndsWith(" it misses the limit by 0.25 rad at 0.5 s.")) << unit;
 }
 
 /// What is violated nearly always must not sound as if that were an exception.
 TEST(PlainRequirement, SaysHowProbableAViolationIsWhereThatIsProved) {
-  Results results = withRequirement("always a > 1 m", "partly");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::partly);
   RequirementResult& requirement = results.requirements.front();
   requirement.probabilityLower = 0.59371;
   requirement.probabilityUpper = 0.59789;
@@ -124,7 +144,7 @@ TEST(PlainRequirement, SaysHowProbableAViolationIsWhereThatIsProved) {
   requirement.probabilityUpper = 0;
   EXPECT_EQ(summaryOf(results), "The requirement is violated, but for single values without any probability.");
   results.requirements.push_back(requirement);
-  results.requirements.back().word = "met";
+  results.requirements.back().word = Decision::met;
   EXPECT_EQ(summaryOf(results), "1 of 2 requirements is violated but for a tiny probability; 1 is met in every case.");
   results.interval = {};  // then nothing is proved
   results.fuzzy = {};
@@ -133,7 +153,7 @@ TEST(PlainRequirement, SaysHowProbableAViolationIsWhereThatIsProved) {
 }
 
 TEST(PlainRequirement, ClaimsNothingThatIsOpen) {
-  Results results = withRequirement("always a > 1 m", "open");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::open);
   results.requirements.front().why = "the run was interrupted";
   results.requirements.front().samples = 10;
   EXPECT_EQ(
@@ -143,7 +163,7 @@ TEST(PlainRequirement, ClaimsNothingThatIsOpen) {
 }
 
 TEST(PlainRequirement, SaysWhatIsSimulatedAndNotProved) {
-  Results results = withRequirement("always a > 1 m", "open");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::open);
   RequirementResult& requirement = results.requirements.front();
   requirement.margin = 0;
   requirement.isViolatedInSimulation = true;
@@ -166,7 +186,7 @@ TEST(PlainRequirement, SaysWhatIsSimulatedAndNotProved) {
 }
 
 TEST(PlainRequirement, SaysHowFarItIsDecidedAndWhatMayHelp) {
-  Results results = withRequirement("always a > 1 m", "open");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::open);
   RequirementResult& requirement = results.requirements.front();
   requirement.why = "all 2000 pieces that are allowed are used";
   requirement.advice = "interval.max_pieces = 8000";
@@ -189,7 +209,7 @@ TEST(PlainRequirement, SaysHowFarItIsDecidedAndWhatMayHelp) {
 }
 
 TEST(PlainRequirement, IsEstimatedWhereTheProofEnds) {
-  Results results = withRequirement("always a > 1 m", "open");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::open);
   results.interval.present = true;
   results.interval.reached = 0.447;
   RequirementResult& requirement = results.requirements.front();
@@ -211,13 +231,13 @@ TEST(PlainRequirement, IsEstimatedWhereTheProofEnds) {
   EXPECT_EQ(wordsOfRequirements(results).front().verdict, "not proved");
   requirement.until = 0.4;
   EXPECT_EQ(wordsOfRequirements(results).front().verdict, "open");
-  requirement.word = "met";
+  requirement.word = Decision::met;
   EXPECT_EQ(wordsOfRequirements(results).front().estimated, "");
 }
 
 /// What ended the run says nothing against what is proved.
 TEST(PlainRequirement, GluesNoReasonToAViolationThatIsProved) {
-  Results results = withRequirement("always a > 1 m", "partly");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::partly);
   results.requirements.front().why = "the time limit of 1 s CPU for the whole run was reached";
   EXPECT_EQ(wordsOfRequirements(results).front().guaranteed, "violated for some values");
   EXPECT_EQ(wordsOfRequirements(results).front().probable,
@@ -225,41 +245,42 @@ TEST(PlainRequirement, GluesNoReasonToAViolationThatIsProved) {
 }
 
 TEST(RequirementWords, SpeakOfInstantsWhereTimePasses) {
-  Results results = withRequirement("always a > 1 m", "met");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::met);
   EXPECT_EQ(wordsOfRequirements(results).front().guaranteed, "met for every value, at every instant");
   results.horizon = 0;
   EXPECT_EQ(wordsOfRequirements(results).front().guaranteed, "met for every value");
 }
 
 TEST(RequirementWords, CountThem) {
-  const auto sentenceOf = [](const std::vector<const char*>& words) {
-    Results results = withRequirement("always a > 1 m", "open");
+  const auto sentenceOf = [](const std::vector<Decision>& words) {
+    Results results = withRequirement({above("a", "1 m", "m")}, Decision::open);
     results.requirements.resize(words.size(), results.requirements.front());
     for (std::size_t i = 0; i < words.size(); ++i) results.requirements[i].word = words[i];
     return sentenceOfRequirements(results);
   };
-  EXPECT_EQ(sentenceOf({"open"}), "The requirement is neither proved nor refuted.");
-  EXPECT_EQ(sentenceOf({"partly"}), "The requirement is violated for some values at least.");
-  EXPECT_EQ(sentenceOf({"violated", "violated"}), "Both requirements are violated for all values.");
-  EXPECT_EQ(sentenceOf({"open", "open", "open"}), "All 3 requirements are neither proved nor refuted.");
-  EXPECT_EQ(sentenceOf({"met", "partly"}),
+  EXPECT_EQ(sentenceOf({Decision::open}), "The requirement is neither proved nor refuted.");
+  EXPECT_EQ(sentenceOf({Decision::partly}), "The requirement is violated for some values at least.");
+  EXPECT_EQ(sentenceOf({Decision::violated, Decision::violated}), "Both requirements are violated for all values.");
+  EXPECT_EQ(sentenceOf({Decision::open, Decision::open, Decision::open}),
+            "All 3 requirements are neither proved nor refuted.");
+  EXPECT_EQ(sentenceOf({Decision::met, Decision::partly}),
             "Of 2 requirements, 1 is violated for some values at least and 1 is met for all values.");
   EXPECT_EQ(
-      sentenceOf({"met", "partly", "violated", "met"}),
+      sentenceOf({Decision::met, Decision::partly, Decision::violated, Decision::met}),
       "Of 4 requirements, 1 is violated for all values, 1 is violated for some values at least, and 2 are met for "
       "all values.");
 }
 
 TEST(PlainSummary, CountsRequirements) {
-  Results results = withRequirement("always a > 1 m", "met");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::met);
   EXPECT_EQ(summaryOf(results), "The requirement is met in every case that the stated tolerances allow.");
   results.requirements.push_back(results.requirements.front());
   EXPECT_EQ(summaryOf(results), "Both requirements are met in every case that the stated tolerances allow.");
   EXPECT_EQ(sentenceOfRequirements(results), "Both requirements are met, whatever the uncertain quantities are.");
-  results.requirements.back().word = "partly";
+  results.requirements.back().word = Decision::partly;
   EXPECT_EQ(summaryOf(results),
             "1 of 2 requirements can be violated within the stated tolerances; 1 is met in every case.");
-  results.requirements.front().word = "open";
+  results.requirements.front().word = Decision::open;
   EXPECT_EQ(summaryOf(results), "1 of 2 requirements can be violated within the stated tolerances; 1 is not decided.");
 }
 
@@ -295,7 +316,7 @@ TEST(PlainSummary, SaysThatARunEndedEarly) {
 }
 
 TEST(PlainSummary, TellsNobodyToRelyOnWhatWasRefuted) {
-  Results results = withRequirement("always a > 1 m", "met");
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::met);
   results.stochastic.envelope.upper(40, 1) = results.interval.at.upper(40, 1) + 1;
   EXPECT_THAT(summaryOf(results), EndsWith("Do not rely on them."));
   EXPECT_THAT(summaryOf(results), Not(HasSubstr("is met")));

@@ -116,7 +116,7 @@ TEST(Report, ShowsTheWorstOfManyRequirements) {
     RequirementResult& requirement = results.requirements.emplace_back();
     requirement.name = "requirement " + std::to_string(i) + ".";
     requirement.statement = "always a > 1 m";
-    requirement.word = i == 4321 ? "partly" : i % 1000 == 999 ? "open" : "met";
+    requirement.word = i == 4321 ? Decision::partly : i % 1000 == 999 ? Decision::open : Decision::met;
     requirement.violation.assign(results.uncertain.size(), std::nan(""));
   }
   const std::string page = renderReport(results);
@@ -144,7 +144,6 @@ TEST(Report, EscapesEverythingAPersonWrote) {
   results.libraries = {{attack, attack}};
   results.uncertain[0] = {attack, attack, attack, 1, 2, 3, attack, attack};
   for (OutputInfo& output : results.outputs) output = {attack, attack, attack};
-  results.comparison.verdict = attack;
   results.comparison.disputed.push_back({});
   results.comparison.disputed.back().decided = attack;
   results.comparison.disputed.back().farthest.assign(results.outputs.size(), 0.0);
@@ -184,7 +183,7 @@ TEST(Report, TellsQuantitiesInTheUnitsThatTheStudyStates) {
   quantity.told = "deg";
   RequirementResult requirement;
   requirement.name = requirement.statement = "limit";
-  requirement.word = "partly";
+  requirement.word = Decision::partly;
   requirement.violation = {nearest(parseAmount("134.71312 deg"))};
   results.requirements.push_back(requirement);
   EXPECT_THAT(renderReport(results),
@@ -467,7 +466,7 @@ TEST(Report, BeginsWithRequirements) {
   requirement.name = "<b>clearance";
   requirement.statement = "always angle > 0";
   requirement.until = results.horizon;
-  requirement.word = "partly";
+  requirement.word = Decision::partly;
   requirement.factor = 0.98765;
   requirement.probabilityLower = 0.96841;
   requirement.probabilityUpper = 0.97019;
@@ -482,7 +481,7 @@ TEST(Report, BeginsWithRequirements) {
                           HasSubstr("(short by 0.002")));
   EXPECT_THAT(page, HasSubstr("<p>The requirement is violated for some values at least.</p>"));
   EXPECT_THAT(page, HasSubstr("<p class=\"lead\">The requirement can be violated within the stated tolerances.</p>"));
-  requirement.word = "met";
+  requirement.word = Decision::met;
   EXPECT_THAT(renderReport(results), HasSubstr("The requirement is met, whatever the uncertain quantities are."));
 }
 

@@ -35,7 +35,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 struct Case {
   std::string name;
   std::function<void(Results&)> change;
-  std::string word;
+  Agreement word;
 };
 
 void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
@@ -48,7 +48,8 @@ TEST_P(VerdictOf, IsTheWordExpected) {
   const Verdict verdict = judge(results);
   EXPECT_EQ(verdict.word, GetParam().word) << verdict.sentence;
   EXPECT_THAT(verdict.sentence, Not(IsEmpty()));
-  EXPECT_EQ(verdict.excursion.distance > 0, verdict.word == "outside" || verdict.word == "unresolved");
+  EXPECT_EQ(verdict.excursion.distance > 0,
+            verdict.word == Agreement::outside || verdict.word == Agreement::unresolved);
 }
 
 /// Raises the envelope at one point to lie this far above the enclosure.
@@ -74,162 +75,163 @@ DisputedSample& dispute(Results& results, double distance, const std::string& de
 }
 
 const Case cases[] = {
-    {"AllInside", [](Results&) {}, "inside"},
-    {"TouchingTheBoundIsInside", [](Results& r) { leave(r, 0); }, "inside"},
-    {"ExcursionBeyondTheError", [](Results& r) { leave(r, 1e-6); }, "outside"},
-    {"ExcursionWithinTheError", [](Results& r) { leave(r, 0.5e-11); }, "outside"},
+    {"AllInside", [](Results&) {}, Agreement::inside},
+    {"TouchingTheBoundIsInside", [](Results& r) { leave(r, 0); }, Agreement::inside},
+    {"ExcursionBeyondTheError", [](Results& r) { leave(r, 1e-6); }, Agreement::outside},
+    {"ExcursionWithinTheError", [](Results& r) { leave(r, 0.5e-11); }, Agreement::outside},
     {"ExcursionByOneUlpAbove",
      [](Results& r) {
        r.stochastic.envelope.upper(40, 1) =
            std::nextafter(r.interval.at.upper(40, 1), std::numeric_limits<double>::infinity());
      },
-     "outside"},
+     Agreement::outside},
     {"ExcursionByOneUlpBelow",
      [](Results& r) {
        r.stochastic.envelope.lower(40, 1) =
            std::nextafter(r.interval.at.lower(40, 1), -std::numeric_limits<double>::infinity());
      },
-     "outside"},
+     Agreement::outside},
     {"ExcursionFromAnAlphaCutByOneUlp",
      [](Results& r) {
        r.fuzzy.inner[2].upper(40, 1) =
            std::nextafter(r.fuzzy.outer[2].upper(40, 1), std::numeric_limits<double>::infinity());
      },
-     "outside"},
+     Agreement::outside},
     {"InfiniteBound", [](Results& r) { r.interval.at.upper(40, 1) = std::numeric_limits<double>::infinity(); },
-     "incomplete"},
+     Agreement::incomplete},
     {"InfiniteBoundBetweenTimes",
-     [](Results& r) { r.interval.over.lower(40, 1) = -std::numeric_limits<double>::infinity(); }, "incomplete"},
+     [](Results& r) { r.interval.over.lower(40, 1) = -std::numeric_limits<double>::infinity(); },
+     Agreement::incomplete},
     {"InfiniteAlphaCut", [](Results& r) { r.fuzzy.outer[2].upper(40, 1) = std::numeric_limits<double>::infinity(); },
-     "incomplete"},
+     Agreement::incomplete},
     {"InfinitePlainIntervals",
      [](Results& r) {
        r.interval.direct = r.interval.at;
        r.interval.direct.upper(40, 1) = std::numeric_limits<double>::infinity();
      },
-     "inside"},
-    {"ExcursionAtTheFirstTime", [](Results& r) { r.stochastic.envelope.lower(0, 0) -= 1; }, "outside"},
-    {"ExcursionAtTheLastTime", [](Results& r) { r.stochastic.envelope.lower(60, 1) -= 1; }, "outside"},
+     Agreement::inside},
+    {"ExcursionAtTheFirstTime", [](Results& r) { r.stochastic.envelope.lower(0, 0) -= 1; }, Agreement::outside},
+    {"ExcursionAtTheLastTime", [](Results& r) { r.stochastic.envelope.lower(60, 1) -= 1; }, Agreement::outside},
     {"InfiniteSample", [](Results& r) { r.stochastic.envelope.upper(3, 0) = std::numeric_limits<double>::infinity(); },
-     "outside"},
-    {"ExcursionFromTheTubeAlone", [](Results& r) { r.interval.over.upper(41, 1) = -10; }, "outside"},
-    {"ExcursionFromAnAlphaCutAlone", [](Results& r) { r.fuzzy.inner[5].upper(40, 1) += 0.1; }, "outside"},
+     Agreement::outside},
+    {"ExcursionFromTheTubeAlone", [](Results& r) { r.interval.over.upper(41, 1) = -10; }, Agreement::outside},
+    {"ExcursionFromAnAlphaCutAlone", [](Results& r) { r.fuzzy.inner[5].upper(40, 1) += 0.1; }, Agreement::outside},
     {"ExcursionAfterTheEnclosureEnded",
      [](Results& r) {
        r.interval.reached = 1;
        leave(r, 1);
      },
-     "incomplete"},
-    {"DisputedAndOutside", [](Results& r) { dispute(r, 1e-6, "Taylor 53 bits").outside = true; }, "outside"},
+     Agreement::incomplete},
+    {"DisputedAndOutside", [](Results& r) { dispute(r, 1e-6, "Taylor 53 bits").outside = true; }, Agreement::outside},
     {"DisputedAndUnresolved",
      [](Results& r) {
        leave(r, 1e-6);
        dispute(r, 1e-6, "unresolved");
      },
-     "unresolved"},
-    {"DisputedAndSettledInside", [](Results& r) { dispute(r, 0, "Taylor 53 bits"); }, "inside"},
+     Agreement::unresolved},
+    {"DisputedAndSettledInside", [](Results& r) { dispute(r, 0, "Taylor 53 bits"); }, Agreement::inside},
     {"DisputedAndSettledInsideButStoredOutside",
      [](Results& r) {
        leave(r, 1e-6);
        dispute(r, 1e-6, "Taylor 53 bits");
      },
-     "outside"},
+     Agreement::outside},
     {"DisputedAndInterrupted",
      [](Results& r) {
        leave(r, 1e-6);
        dispute(r, 1e-6, "interrupted");
      },
-     "incomplete"},
+     Agreement::incomplete},
     {"OutsideByRounding",
      [](Results& r) {
        leave(r, 1e-6);
        dispute(r, 1e-6, "rounding");
      },
-     "inside"},
+     Agreement::inside},
     {"RoundingExcusesNoMore",
      [](Results& r) {
        leave(r, 2e-6);
        dispute(r, 1e-6, "rounding");
      },
-     "outside"},
+     Agreement::outside},
     {"AnUnresolvedSampleExcusesNoOtherOutput",
      [](Results& r) {
        r.stochastic.envelope.upper(40, 0) = r.interval.at.upper(40, 0) + 1e-6;
        dispute(r, 1e-3, "unresolved");
      },
-     "outside"},
+     Agreement::outside},
     {"AnInterruptedSampleExcusesNoOtherOutput",
      [](Results& r) {
        r.stochastic.envelope.upper(40, 0) = r.interval.at.upper(40, 0) + 1e-6;
        dispute(r, 1e-3, "interrupted");
      },
-     "outside"},
+     Agreement::outside},
     {"AnInterruptedSampleMayLieOutsideInEveryOutput",
      [](Results& r) {
        leave(r, 1e-6);
        r.stochastic.envelope.upper(41, 0) = r.interval.at.upper(41, 0) + 2e-6;
        dispute(r, 1e-6, "interrupted").farthest = {2e-6, 1e-6};
      },
-     "incomplete"},
+     Agreement::incomplete},
     {"AnUnresolvedSampleMayLieOutsideInEveryOutput",
      [](Results& r) {
        leave(r, 1e-6);
        r.stochastic.envelope.upper(41, 0) = r.interval.at.upper(41, 0) + 2e-6;
        dispute(r, 1e-6, "unresolved").farthest = {2e-6, 1e-6};
      },
-     "unresolved"},
+     Agreement::unresolved},
     {"AnInterruptedSampleExcusesNoMoreThanItsDistance",
      [](Results& r) {
        leave(r, 1e-6);
        dispute(r, 0.9e-6, "interrupted");
      },
-     "outside"},
+     Agreement::outside},
     {"AnUnresolvedSampleExcusesNoMoreThanItsDistance",
      [](Results& r) {
        leave(r, 1e-6);
        dispute(r, 0.9e-6, "unresolved");
      },
-     "outside"},
+     Agreement::outside},
     {"InterruptedBeforeAnAlphaCut",
      [](Results& r) {
        r.fuzzy.inner[2].upper(40, 1) = r.fuzzy.outer[2].upper(40, 1) + 1e-9;
        dispute(r, 1.1e-9, "interrupted").level = 2;
      },
-     "incomplete"},
+     Agreement::incomplete},
     {"InterruptedBeforeAnotherAlphaCut",
      [](Results& r) {
        r.fuzzy.inner[2].upper(40, 1) = r.fuzzy.outer[2].upper(40, 1) + 1e-9;
        dispute(r, 1.1e-9, "interrupted").level = 3;
      },
-     "outside"},
+     Agreement::outside},
     {"SamplingStopped",
      [](Results& r) {
        r.stochastic.integrated = 100;
        r.stochastic.stopped = "the run was interrupted";
      },
-     "incomplete"},
-    {"EnclosureEndsEarly", [](Results& r) { r.interval.reached = 2.3; }, "incomplete"},
-    {"SamplesEndEarly", [](Results& r) { r.stochastic.reached = 2.3; }, "incomplete"},
-    {"AlphaCutsEndEarly", [](Results& r) { r.fuzzy.reached = 2.3; }, "incomplete"},
-    {"NumberMissingBeforeTheEnd", [](Results& r) { r.interval.at.lower(7, 0) = none; }, "incomplete"},
-    {"NoInterval", [](Results& r) { r.interval = {}; }, "inside"},
-    {"NoFuzzy", [](Results& r) { r.fuzzy = {}; }, "inside"},
-    {"NoComparison", [](Results& r) { r.comparison = {}; }, "inside"},
+     Agreement::incomplete},
+    {"EnclosureEndsEarly", [](Results& r) { r.interval.reached = 2.3; }, Agreement::incomplete},
+    {"SamplesEndEarly", [](Results& r) { r.stochastic.reached = 2.3; }, Agreement::incomplete},
+    {"AlphaCutsEndEarly", [](Results& r) { r.fuzzy.reached = 2.3; }, Agreement::incomplete},
+    {"NumberMissingBeforeTheEnd", [](Results& r) { r.interval.at.lower(7, 0) = none; }, Agreement::incomplete},
+    {"NoInterval", [](Results& r) { r.interval = {}; }, Agreement::inside},
+    {"NoFuzzy", [](Results& r) { r.fuzzy = {}; }, Agreement::inside},
+    {"NoComparison", [](Results& r) { r.comparison = {}; }, Agreement::inside},
     {"NoStochastic",
      [](Results& r) {
        r.stochastic = {};
        r.fuzzy.inner.clear();
      },
-     "incomplete"},
-    {"OnlySamples", [](Results& r) { r.interval = {}, r.fuzzy = {}; }, "incomplete"},
-    {"NothingAtAll", [](Results& r) { r = {}; }, "incomplete"},
-    {"Kinematics", [](Results& r) { r = example::kinematics(); }, "inside"},
+     Agreement::incomplete},
+    {"OnlySamples", [](Results& r) { r.interval = {}, r.fuzzy = {}; }, Agreement::incomplete},
+    {"NothingAtAll", [](Results& r) { r = {}; }, Agreement::incomplete},
+    {"Kinematics", [](Results& r) { r = example::kinematics(); }, Agreement::inside},
     {"KinematicsOutsidePlainIntervals",
      [](Results& r) {
        r = example::kinematics();
        r.interval.direct.lower(0, 1) = r.interval.direct.upper(0, 1);
      },
-     "outside"},
+     Agreement::outside},
 };
 
 INSTANTIATE_TEST_SUITE_P(Verdict, VerdictOf, ::testing::ValuesIn(cases),
@@ -287,17 +289,17 @@ Results withShares(double excess) {
 }
 
 TEST(Verdict, CountsSharesOfSamplesWhereBadLuckCannotBe) {
-  EXPECT_EQ(judge(withShares(0.02)).word, "inside");
+  EXPECT_EQ(judge(withShares(0.02)).word, Agreement::inside);
   EXPECT_THAT(judge(withShares(0.02)).notes, Not(Contains(HasSubstr("shares"))));
   const Verdict lucky = judge(withShares(0.03));  // √(ln(4/0.05)/8192) = 0.023
-  EXPECT_EQ(lucky.word, "inside");
+  EXPECT_EQ(lucky.word, Agreement::inside);
   EXPECT_THAT(lucky.notes, Contains(HasSubstr("leave the proved bounds of probability by up to 0.03 in")));
   const Verdict wrong = judge(withShares(0.06));  // √(ln(4e9)/8192) = 0.052
-  EXPECT_EQ(wrong.word, "outside");
+  EXPECT_EQ(wrong.word, Agreement::outside);
   EXPECT_THAT(wrong.sentence, HasSubstr("up to 0.06 outside the proved bounds of its probability in"));
   Results dependent = withShares(0.06);
   dependent.distribution.band = 0;
-  EXPECT_EQ(judge(dependent).word, "inside");
+  EXPECT_EQ(judge(dependent).word, Agreement::inside);
 }
 
 TEST(Verdict, SaysWhereAGuaranteeSaysLittle) {
@@ -328,13 +330,14 @@ TEST(Verdict, NamesTheOutputOfWhichNothingFiniteIsGuaranteed) {
   results.interval.at.upper(40, 1) = results.interval.at.upper(41, 1) = std::numeric_limits<double>::infinity();
   results.comparison.overestimation(40, 1) = std::numeric_limits<double>::infinity();
   const Verdict verdict = judge(results);
-  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_EQ(verdict.word, Agreement::incomplete);
   EXPECT_TRUE(std::isfinite(verdict.overestimation));
   EXPECT_THAT(verdict.sentence, HasSubstr("Not every output is bounded."));
   EXPECT_THAT(verdict.notes, Contains(AllOf(HasSubstr("Nothing finite is guaranteed of " + results.outputs[1].name),
                                             HasSubstr("infinite or undefined for some values"))));
   EXPECT_EQ(whyIncomplete(results, verdict), unboundedText(results, verdict));
-  EXPECT_THAT(jsonSummary(results, verdict.word, {}), HasSubstr("\"why\":\"nothing finite is guaranteed of "));
+  EXPECT_THAT(jsonSummary(results, std::string(wordOf(verdict.word)), {}),
+              HasSubstr("\"why\":\"nothing finite is guaranteed of "));
 }
 
 TEST(Verdict, SaysBetweenWhichTimesNothingFiniteIsGuaranteed) {
@@ -348,7 +351,7 @@ TEST(Verdict, OfPositionsWhoseEnclosureWasEndedIsIncompleteAndSaysWhy) {
   Results results = example::kinematics();
   results.interval.why = "the run was interrupted";
   const Verdict verdict = judge(results);
-  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_EQ(verdict.word, Agreement::incomplete);
   EXPECT_THAT(verdict.sentence, HasSubstr("An analysis ended early."));
   EXPECT_THAT(verdict.notes, Contains("The enclosure ended early: the run was interrupted."));
 }
@@ -375,12 +378,12 @@ TEST(Verdict, SaysSoWhereTheStoredWordDisagreesAndTheFindingWins) {
   Results results = example::pendulum();
   leave(results, 1e-3);
   const Verdict verdict = judge(results);
-  EXPECT_EQ(verdict.word, "outside");
+  EXPECT_EQ(verdict.word, Agreement::outside);
   EXPECT_THAT(verdict.sentence, HasSubstr("stored as \"inside\"; their own numbers say \"outside\""));
 
   Results better = example::pendulum();
-  better.comparison.verdict = "outside";
-  EXPECT_EQ(judge(better).word, "inside");
+  better.comparison.verdict = Agreement::outside;
+  EXPECT_EQ(judge(better).word, Agreement::inside);
   EXPECT_THAT(judge(better).sentence, HasSubstr("stored as \"outside\"; their own numbers say \"inside\""));
 }
 
@@ -408,9 +411,9 @@ TEST(Verdict, OfAFirstBlockOfSamplesIsIncompleteThoughTheyAllReachTheHorizon) {
   Results results = example::pendulum();
   results.stochastic.integrated = 259;
   results.stochastic.stopped = "interrupted";
-  results.comparison.verdict = "incomplete";
+  results.comparison.verdict = Agreement::incomplete;
   const Verdict verdict = judge(results);
-  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_EQ(verdict.word, Agreement::incomplete);
   EXPECT_THAT(verdict.sentence, StartsWith("All 259 motions that were sampled stay inside the guaranteed enclosure"));
   EXPECT_THAT(verdict.notes, ElementsAre("259 of 4099 samples were taken: interrupted."));
 }
@@ -419,13 +422,13 @@ TEST(Verdict, OfARunThatEndedWhileItBoundedProbabilitiesIsIncomplete) {
   Results results = example::pendulum();
   results.distribution.present = true;
   results.distribution.stopped = "the run was interrupted";
-  results.comparison.verdict = "incomplete";
+  results.comparison.verdict = Agreement::incomplete;
   const Verdict verdict = judge(results);
-  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_EQ(verdict.word, Agreement::incomplete);
   EXPECT_THAT(verdict.sentence, EndsWith("Their probabilities were not bounded to the end."));
   EXPECT_THAT(verdict.notes, ElementsAre("Probabilities were not bounded to the end: the run was interrupted."));
   results.distribution.present = false;
-  EXPECT_EQ(judge(results).word, "inside");
+  EXPECT_EQ(judge(results).word, Agreement::inside);
 }
 
 TEST(Verdict, OfARunThatEndedWhileItEnclosedDerivativesIsIncomplete) {
@@ -433,11 +436,11 @@ TEST(Verdict, OfARunThatEndedWhileItEnclosedDerivativesIsIncomplete) {
   results.derivatives.present = true;
   results.derivatives.why =
       "the work that limits.derivatives allows is done";  // their own: that is no early end of the run
-  EXPECT_EQ(judge(results).word, "inside");
+  EXPECT_EQ(judge(results).word, Agreement::inside);
   results.derivatives.why = results.derivatives.stopped = "the run was interrupted";
-  results.comparison.verdict = "incomplete";
+  results.comparison.verdict = Agreement::incomplete;
   const Verdict verdict = judge(results);
-  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_EQ(verdict.word, Agreement::incomplete);
   EXPECT_THAT(verdict.sentence, EndsWith("Their derivatives were not enclosed to the end."));
   EXPECT_THAT(verdict.notes, ElementsAre("Derivatives were not enclosed to the end: the run was interrupted."));
 }
@@ -445,9 +448,9 @@ TEST(Verdict, OfARunThatEndedWhileItEnclosedDerivativesIsIncomplete) {
 TEST(Verdict, OfARunThatWasStoppedIsIncompleteWhateverIsMissing) {
   Results results = example::pendulum();
   results.stopped = "the run was interrupted";
-  results.comparison.verdict = "incomplete";
+  results.comparison.verdict = Agreement::incomplete;
   const Verdict verdict = judge(results);
-  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_EQ(verdict.word, Agreement::incomplete);
   EXPECT_THAT(verdict.sentence, EndsWith("Not all was done: the run was interrupted."));
 }
 
@@ -457,7 +460,7 @@ TEST(Verdict, OfARunThatEndedAtTheStartNamesNoSamples) {
   results.interval.reached = 0;
   results.interval.why = "the run was interrupted";
   dispute(results, 1e-6, "interrupted");
-  results.comparison.verdict = "incomplete";
+  results.comparison.verdict = Agreement::incomplete;
   const Verdict verdict = judge(results);
   EXPECT_THAT(verdict.sentence,
               StartsWith("Nothing could be compared: an analysis ended before the first output time"));
@@ -471,7 +474,7 @@ TEST(Verdict, SaysOnceThatNoSampleWasTaken) {
   results.stochastic.integrated = 0;
   results.stochastic.reached = 0;
   results.stochastic.stopped = "the run was interrupted";
-  results.comparison.verdict = "incomplete";
+  results.comparison.verdict = Agreement::incomplete;
   EXPECT_THAT(judge(results).notes, ElementsAre("0 of 4099 samples were taken: the run was interrupted."));
 }
 
@@ -559,7 +562,7 @@ TEST(Verdict, ClaimsNothingOfMotionsThatEndedAtTheStart) {
   for (double& number : results.stochastic.envelope.lower.data) number = none;
   for (double& number : results.stochastic.envelope.upper.data) number = none;
   const Verdict verdict = judge(results);
-  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_EQ(verdict.word, Agreement::incomplete);
   EXPECT_THAT(verdict.sentence,
               StartsWith("Nothing could be compared: an analysis ended before the first output time. The 3 s asked"));
   EXPECT_THAT(verdict.notes, ElementsAre("The 4096 samples ended at 0 s of the 3 s asked for: interrupted."));
@@ -570,7 +573,7 @@ TEST(Verdict, ClaimsNothingOfTheStartAloneAndNamesATimeOnce) {
   results.interval.reached = 0.25 * results.time[1];
   results.interval.why = "at 0.0125 s first angle grows without bound; one start: at 1.5e-2 s it does too";
   const Verdict verdict = judge(results);
-  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_EQ(verdict.word, Agreement::incomplete);
   EXPECT_THAT(verdict.sentence,
               StartsWith("Nothing could be compared: an analysis ended before the first output time"));
   EXPECT_TRUE(std::isnan(verdict.overestimation));

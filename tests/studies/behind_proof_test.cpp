@@ -31,8 +31,8 @@ TEST(BehindTheProof, RequirementsAreEstimatedByIndependentSamples) {
     EXPECT_LE(1 - static_cast<double>(each->violating) / 512, each->estimate.upper);
     EXPECT_TRUE(std::isnan(each->shareLower));
   }
-  EXPECT_EQ(late.word, "partly");  // a flow of one sample's values proves as much
-  EXPECT_EQ(surely.word, "open");
+  EXPECT_EQ(late.word, Decision::partly);  // a flow of one sample's values proves as much
+  EXPECT_EQ(surely.word, Decision::open);
   EXPECT_GT(late.estimate.violated, 0);
   EXPECT_GT(late.estimate.met, 0);
   EXPECT_NEAR(late.estimate.firstOrder, 1 - static_cast<double>(late.violating) / 512, 0.15);

@@ -97,9 +97,9 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"total indices apart", [](Results& r) { r.sensitivity.totalLower[0] = r.sensitivity.totalUpper[0] = 1; },
                "error"},
         Change{"a requirement met and violated",
-               [](Results& r) { r.requirements[0].word = "violated", r.requirements[0].met = 0; }, "error"},
+               [](Results& r) { r.requirements[0].word = Decision::violated, r.requirements[0].met = 0; }, "error"},
         Change{"a requirement met and violated for some",
-               [](Results& r) { r.requirements[0].word = "partly", r.requirements[0].met = 0; }, "error"},
+               [](Results& r) { r.requirements[0].word = Decision::partly, r.requirements[0].met = 0; }, "error"},
         Change{"parts that are all of the box", [](Results& r) { r.requirements[1].met = 0.75; }, "agree"},
         Change{"parts that are more than the box by a rounding",
                [](Results& r) { r.requirements[1].met = std::nextafter(0.75, 1.0); }, "error"},
@@ -109,7 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"possibilities of a requirement apart",
                [](Results& r) { r.requirements[1].violationLeast = r.requirements[1].violationMost = 0.75; }, "error"},
         Change{"another demand",
-               [](Results& r) { r.requirements[0].word = "violated", r.requirements[0].until = 0.01; }, "agree"},
+               [](Results& r) { r.requirements[0].word = Decision::violated, r.requirements[0].until = 0.01; },
+               "agree"},
         Change{"wider", [](Results& r) { r.interval.at.upper(1, 0) += 0.02; }, "worse"},
         Change{"a wider alpha-cut", [](Results& r) { r.fuzzy.outer[1].upper(1, 0) += 0.02; }, "worse"},
         Change{"an alpha-cut of nearly no width", [](Results& r) { r.fuzzy.outer[2].upper(1, 0) += 1e-3; }, "agree"},
@@ -119,13 +120,13 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"shorter", [](Results& r) { r.interval.reached = 0.005; }, "worse"},
         Change{"a requirement not met any more",
                [](Results& r) {
-                 r.requirements[0].word = "open";
+                 r.requirements[0].word = Decision::open;
                  r.requirements[0].met = r.requirements[0].factor = r.requirements[0].probabilityLower = 0;
                },
                "worse"},
         Change{"a violation not known any more",
                [](Results& r) {
-                 r.requirements[1].word = "open";
+                 r.requirements[1].word = Decision::open;
                  r.requirements[1].met = r.requirements[1].violated = 0;
                },
                "worse"}));
@@ -206,7 +207,7 @@ Results comparedResults(const std::string& text) {
   Results results;
   results.studyText = text;
   results.studyFile = "s.toml";
-  results.outputs = study.outputs;
+  results.outputs.assign(study.outputs.begin(), study.outputs.end());
   results.time = study.motion.times;
   for (const UncertainQuantity& of : study.uncertain)
     results.uncertain.push_back({of.uncertain.name, of.quantity, of.unit, of.uncertain.range.lower(),

@@ -27,7 +27,7 @@ times = 0
 void expectTightContact(const std::string& text, double ratio) {
   const Results results = run(readStudyText(contactHead + text + contactTail, "contact.toml"));
   EXPECT_EQ(results.interval.why, "");
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_LE(results.comparison.maximum, ratio);
 }
 

@@ -63,7 +63,7 @@ TEST_P(Examples, ArriveTightlyWithAllSamplesInside) {
   options.jobs = 2;
   options.samples = 64;
   const Results results = run(study, options);
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(results.interval.shortfall, "");
   EXPECT_FALSE(results.uncertain.empty());
   expectNestedCuts(results.fuzzy);
@@ -100,7 +100,7 @@ TEST(AlphaCuts, AreNestedByAllMethods) {
       options.jobs = 2;
       options.samples = 64;
       const Results results = run(study, options);
-      EXPECT_EQ(results.comparison.verdict, "inside");
+      EXPECT_EQ(results.comparison.verdict, Agreement::inside);
       EXPECT_EQ(results.fuzzy.transformation.method, nameOf(method));
       expectNestedCuts(results.fuzzy);
       const double greatest = greatestGap(results.fuzzy);

@@ -212,15 +212,15 @@ TEST(Extension, TellsWhetherSamplesAreTheSame) {
 TEST(Extension, FindsABoundThatNewSamplesLeave) {
   const Results before = runOf(study, samples(64));
   const Results whole = extended(before, samples(1024)).results;
-  EXPECT_EQ(whole.comparison.verdict, "inside");
+  EXPECT_EQ(whole.comparison.verdict, Agreement::inside);
   const double few = before.stochastic.envelope.lower(0, 1), many = whole.stochastic.envelope.lower(0, 1);
   ASSERT_LT(many, few);
   Results tampered = before;
   tampered.interval.at.lower(0, 1) = 0.5 * (few + many);
-  EXPECT_EQ(findVerdict(tampered).word, "inside");
+  EXPECT_EQ(findVerdict(tampered).word, Agreement::inside);
   const Results after = stored(extended(tampered, samples(1024)).results);
-  EXPECT_EQ(after.comparison.verdict, "outside");
-  EXPECT_EQ(findVerdict(after).word, "outside");
+  EXPECT_EQ(after.comparison.verdict, Agreement::outside);
+  EXPECT_EQ(findVerdict(after).word, Agreement::outside);
 }
 
 TEST(Extension, ThatIsEndedEarlyKeepsWhatItFoundIfThatIsMore) {
@@ -240,11 +240,11 @@ TEST(Extension, ThatIsEndedEarlyKeepsWhatItFoundIfThatIsMore) {
   const StochasticResult& stochastic = extension.results.stochastic;
   EXPECT_LT(stochastic.integrated, stochastic.planned());
   EXPECT_EQ(stochastic.stopped, "the run was interrupted");
-  EXPECT_EQ(extension.results.comparison.verdict, "incomplete");
+  EXPECT_EQ(extension.results.comparison.verdict, Agreement::incomplete);
   // To the end, by as many samples as were planned.
   const Results whole = extended(stored(extension.results), samples(65536)).results;
   EXPECT_EQ(whole.stochastic.integrated, whole.stochastic.planned());
-  EXPECT_EQ(whole.comparison.verdict, "inside");
+  EXPECT_EQ(whole.comparison.verdict, Agreement::inside);
 }
 
 TEST(Extension, ComparesAsFarAsAnEnclosureCame) {
@@ -254,7 +254,7 @@ TEST(Extension, ComparesAsFarAsAnEnclosureCame) {
   const Results before = stored(run(hard, samples(64)));
   ASSERT_LT(before.interval.reached, 0.5);
   const Results after = stored(extended(before, samples(256)).results);
-  EXPECT_EQ(after.comparison.verdict, "incomplete");
+  EXPECT_EQ(after.comparison.verdict, Agreement::incomplete);
   EXPECT_EQ(after.stochastic.reached, 0.5);
   EXPECT_EQ(after.interval.reached, before.interval.reached);
 }
@@ -273,12 +273,12 @@ TEST(Extension, KnowsCornersByTheirNewNumbers) {
 TEST(Extension, ProvesWhatANewSampleViolates) {
   Results before = runOf(study, samples(64));
   RequirementResult& slow = before.requirements[1];
-  ASSERT_EQ(slow.word, "partly");
-  slow.word = "open";
+  ASSERT_EQ(slow.word, Decision::partly);
+  slow.word = Decision::open;
   slow.why = "the enclosure is not tight enough to tell";
   slow.violation = {RequirementResult::unknown};
   const RequirementResult& after = extended(before, samples(256)).results.requirements[1];
-  EXPECT_EQ(after.word, "partly");
+  EXPECT_EQ(after.word, Decision::partly);
   EXPECT_EQ(after.why, "");
   EXPECT_EQ(after.violationSample, after.worstSample);
   EXPECT_FALSE(std::isnan(after.violation[0]));

@@ -48,17 +48,17 @@ from = 0.25
   };
   for (const char* times : {"[0.25]", "[0.25, 0.45]"}) {
     const RequirementResult result = run(comingToRest(withLimit("0.06"), times)).requirements.at(0);
-    EXPECT_NE(result.word, "met") << times;
+    EXPECT_NE(result.word, Decision::met) << times;
     EXPECT_LE(result.probabilityLower, 0.9425) << times;
     EXPECT_GE(result.probabilityUpper, 0.9425) << times;
   }
-  EXPECT_EQ(run(comingToRest(withLimit("0.12"))).requirements.at(0).word, "met");  // least 0.1111 away
+  EXPECT_EQ(run(comingToRest(withLimit("0.12"))).requirements.at(0).word, Decision::met);  // least 0.1111 away
 }
 
 TEST(HeldSigns, AsOutputsHoldAllSamples) {
   for (const char* quantity : {"sign(x)", "sign(2*x)", "sign(-x)", "where(x > 0, 1, 2)", "sign(x^3)", "abs(sign(x))"}) {
     const Results results = run(comingToRest("[[output]]\nname = \"s\"\nquantity = \"" + std::string(quantity) + "\""));
-    EXPECT_EQ(results.comparison.verdict, "inside") << quantity;
+    EXPECT_EQ(results.comparison.verdict, Agreement::inside) << quantity;
   }
 }
 

@@ -164,7 +164,7 @@ Results expectHeld(const std::string& text, const Stop& stop, const std::string&
   const Study study = readStudyText(std::string(text).insert(text.find("[[uncertain]]"), element) + outputs, "s.toml");
   const Results results = run(study);
   EXPECT_EQ(results.interval.why, "");
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   const Problem problem = makeProblem(study);
   ImpactReference reference(free, stop);
   std::mt19937_64 random(29);
@@ -289,7 +289,7 @@ TEST(Impacts, AccumulateWherePlaceSpeedAndRestitutionAreUncertain) {
   const Results results = run(readStudyText(text, "s.toml"));
   EXPECT_EQ(results.interval.why, "");
   EXPECT_EQ(results.stochastic.why, "");
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   const std::size_t last = results.time.size() - 1;
   EXPECT_NEAR(results.interval.at.lower(last, 0), 0.123 * 0.99, 1e-14);
   EXPECT_NEAR(results.interval.at.upper(last, 0), 0.123 * 1.01, 1e-14);
@@ -307,7 +307,7 @@ TEST(Impacts, OfAnUncertainRestitutionAskForNoBisectionBeforeThem) {
   const Results results = run(readStudyText(text, "s.toml"));
   EXPECT_EQ(results.interval.why, "");
   EXPECT_LE(results.interval.pieces, 4);
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_LT(results.comparison.maximum, 1.01);
 }
 
@@ -392,7 +392,7 @@ TEST(Impacts, OfABallWithDragAreHeldWhereNothingIsUncertain) {
                             "0\nrestitution = 0.75\n"
                             "[[output]]\nquantity = \"fall.displacement\"\n",
                         "s.toml"));
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_LT(results.interval.at.upper(32, 0) - results.interval.at.lower(32, 0), 1e-9);
 }
 

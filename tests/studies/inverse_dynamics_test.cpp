@@ -52,7 +52,7 @@ TEST(InverseDynamics, OfAPendulumIsItsEquation) {
   const Study study = readStudyText(drivenPendulum(servo), "s.toml");
   EXPECT_EQ(study.analysisName(), "inverse-dynamics");
   const Results results = run(study);
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(results.interval.reached, 1.0);
   for (std::size_t i = 0; i < results.time.size(); ++i) {
     const double t = results.time[i], q = 0.4 * std::sin(3 * t), rate = 1.2 * std::cos(3 * t), second = -9 * q;
@@ -106,7 +106,7 @@ TEST(InverseDynamics, OfJointsAtRestIsStatics) {
   std::string still = servo;
   still.replace(still.find("\"0.4"), std::string::npos, "\"30 deg\"");
   const Results results = run(readStudyText(drivenPendulum(still), "s.toml"));
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   for (std::size_t i = 0; i < results.time.size(); ++i) {
     EXPECT_NEAR(results.interval.at.lower(i, 0), 0.2375 * 9.81 * 0.25, 1e-12);
     EXPECT_NEAR(results.interval.at.upper(i, 0), 0.2625 * 9.81 * 0.25, 1e-12);
@@ -208,7 +208,7 @@ TEST(InverseDynamics, FollowsATable) {
   std::ofstream(folder.path("motion.csv"))
       << "# measured\ntime [ms], knee, hip [deg]\n0, 1, 0\n\n500, 2, 15\n2000, 3, 60\n";
   const Results results = run(readStudy(path));
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   for (std::size_t i = 0; i < results.time.size(); ++i) {
     const double moment = 0.5 * 9.81 * std::sin(results.time[i] * 30 * M_PI / 180);
     EXPECT_NEAR(results.interval.at.lower(i, 0), 0.2375 * moment, 1e-11);
@@ -259,7 +259,7 @@ TEST(InverseDynamics, IsTightBetweenRowsOfATable) {
   for (int i = 0; i <= 30; ++i) table << i / 20.0 << "," << 0.4 * std::sin(3 * i / 20.0) << "\n";
   table.close();
   const Results results = run(readStudy(path));
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(results.interval.reached, 1.0);
   for (std::size_t i = 1; i < results.time.size(); ++i) {
     const double q = 0.4 * std::sin(3 * results.time[i]), moment = -0.25 * 9 * q + 0.5 * 9.81 * std::sin(q);

@@ -158,7 +158,7 @@ TEST_P(Machines, ArriveInsideATightGuarantee) {
   const Results results = run(readStudyText(GetParam().text, "machine.toml"), {});
   EXPECT_EQ(results.interval.reached, results.horizon) << results.interval.why;
   EXPECT_EQ(results.stochastic.reached, results.horizon) << results.stochastic.why;
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_LE(results.comparison.maximum, GetParam().overestimation);
 }
 

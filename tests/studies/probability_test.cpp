@@ -100,7 +100,7 @@ TEST(Probabilities, HoldForDependentQuantities) {
   for (const char* how : {"rank_correlation = -0.8", "unknown = true"}) {
     const Results results = run(asked("[[dependence]]\nquantities = [\"start\", \"length\"]\n" + std::string(how) +
                                       "\n[distribution]\ntimes = [0.3, 0.5]\n"));
-    EXPECT_EQ(results.comparison.verdict, "inside");
+    EXPECT_EQ(results.comparison.verdict, Agreement::inside);
     const DistributionResult& distribution = results.distribution;
     ASSERT_TRUE(distribution.present);
     EXPECT_GT(distribution.gap, gap);  // less is known of them

@@ -51,21 +51,77 @@ always = "hinge.angle^2 >= 0"
   ASSERT_EQ(study.requirements.size(), 4U);
   const Requirement& clearance = study.requirements[0];
   EXPECT_EQ(clearance.statement, "always tip.position.z > -0.5 m");
-  EXPECT_TRUE(clearance.isAlways);
-  EXPECT_EQ(clearance.from, 0.1);
-  EXPECT_EQ(clearance.until, 0.25);
+  EXPECT_TRUE(clearance.demand.isAlways);
+  EXPECT_EQ(clearance.demand.from, 0.1);
+  EXPECT_EQ(clearance.demand.until, 0.25);
   EXPECT_THAT(study.motion.times, ::testing::ElementsAre(0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5));
   ASSERT_EQ(study.outputs.size(), 8U);
   EXPECT_EQ(study.outputs[2].name, "clearance");
   EXPECT_EQ(study.outputs[2].unit, "m");
-  EXPECT_EQ(study.outputs[3].quantity, "hinge.angle - (-20 deg)");
-  EXPECT_EQ(study.outputs[4].quantity, "20 deg - hinge.angle");
+  EXPECT_EQ(study.outputs[3].quantity, "angle - (-20 deg)");
+  EXPECT_EQ(study.outputs[4].quantity, "20 deg - angle");
   EXPECT_EQ(study.requirements[1].name, "-20 deg <= angle < 20 deg");
-  EXPECT_FALSE(study.requirements[1].isAlways);
-  EXPECT_THAT(study.requirements[1].isMetAtZero, ::testing::ElementsAre(1, 0));
+  EXPECT_FALSE(study.requirements[1].demand.isAlways);
+  EXPECT_FALSE(study.requirements[1].demand.terms[0].isStrict);
+  EXPECT_TRUE(study.requirements[1].demand.terms[1].isStrict);
   EXPECT_EQ(study.outputs[5].name, "slow, from above");
-  EXPECT_EQ(study.outputs[6].quantity, "(3 rad/s) - (-(hinge.rate))");
+  EXPECT_EQ(study.outputs[6].quantity, "hinge.rate - (-3 rad/s)");
   EXPECT_EQ(study.outputs[7].quantity, "hinge.angle^2");
+}
+
+/// "what > limit unit", with >= or <= where the limit is allowed; behind each other.
+std::string termsOf(const std::string& comparison) {
+  const Study study =
+      read(withRequirements("[[output]]\nname = \"tip height\"\nquantity = \"tip.position.z\"\n"
+                            "[[output]]\nname = \"swing\"\nquantity = \"abs(hinge.rate)\"\n" +
+                            std::string("[[requirement]]\nalways = \"") + comparison + "\"\n"));
+  std::string text;
+  for (const DemandTerm& term : study.requirements.front().demand.terms)
+    text += std::string(text.empty() ? "" : ", ") + term.what + (term.side == DemandTerm::Side::above ? " >" : " <") +
+            (term.isStrict ? " " : "= ") + term.limitText + " [" + term.unit + "]";
+  return text;
+}
+
+TEST(Requirements, SayWhatLiesAboveOrBelowWhat) {
+  for (const auto& [comparison, terms] :
+       {std::pair("angle > 0.2", "angle > 0.2 rad []"),
+        {"0.2 m >= 'tip height'", "'tip height' <= 0.2 m [m]"},
+        {"-5 deg < angle <= 6 deg", "angle > -5 deg [deg], angle <= 6 deg [deg]"},
+        {"6° >= angle > -5°", "angle <= 6° [°], angle > -5° [°]"},
+        {"abs('tip height') < 60 mm", "'tip height' < 60 mm [mm], 'tip height' > -60 mm [mm]"},
+        {"250mrad>=abs(angle - 1/2)", "angle - 1/2 <= 250mrad [mrad], angle - 1/2 >= -250mrad [mrad]"},
+        {"abs(angle) > 6 deg", "abs(angle) > 6 deg [deg]"},
+        {"0 < abs(angle) < 1 rad", "abs(angle) > 0 [], abs(angle) < 1 rad [rad]"},
+        {"hinge.rate^2/2 < 1 rad/s*hinge.rate", "hinge.rate^2/2 < 1 rad/s*hinge.rate []"},
+        {"hinge.angle > abs(angle) - 1", "hinge.angle > abs(angle) - 1 []"},
+        {"rod.length > abs('tip height')", "'tip height' < rod.length [], 'tip height' > -rod.length []"},
+        {"swing < 3 rad/s", "swing < 3 rad/s [rad/s]"},
+        {"abs(swing) < 3", "swing < 3 rad/s [], swing > -3 rad/s []"},
+        {"2 rad/2 > angle", "angle < 2 rad/2 []"}})
+    EXPECT_EQ(termsOf(comparison), terms) << comparison;
+}
+
+/// Lines of limits are bounds of outputs, in their units, wherever the form says so.
+TEST(Requirements, LimitTheOutputsWhoseMultiplesTheyCompare) {
+  const auto limitOf = [](const std::string& comparison, std::size_t margin = 0) {
+    const MarginInfo found =
+        run(read(withRequirements("[[output]]\nname = \"height in mm\"\nquantity = \"tip.position.z\"\nunit = \"mm\"\n"
+                                  "[[output]]\nname = \"degrees\"\nquantity = \"hinge.rate/(1 deg/s)\"\n"
+                                  "[[requirement]]\nname = \"r\"\nalways = \"" +
+                                  comparison + "\"\n")))
+            .margins[margin];
+    return std::pair(found.limited, found.limit);
+  };
+  // Outputs: angle, tip.position.z, height in mm, degrees; the margin.
+  EXPECT_EQ(limitOf("angle > 0.25"), std::pair(std::uint64_t{0}, 0.25));
+  EXPECT_EQ(limitOf("0.5 > 2*angle"), std::pair(std::uint64_t{0}, 0.25));
+  EXPECT_EQ(limitOf("abs(angle) < 0.25", 1), std::pair(std::uint64_t{0}, -0.25));
+  EXPECT_EQ(limitOf("tip.position.z - 0.5 m < 0.25 m"), std::pair(std::uint64_t{1}, 0.75));
+  EXPECT_EQ(limitOf("hinge.rate < 45 deg/s"), std::pair(std::uint64_t{3}, 45.0));
+  EXPECT_EQ(limitOf("tip.position.z > -rod.length/4").first, 1U);  // a number that is not uncertain
+  EXPECT_EQ(limitOf("angle > hinge.rate*(1 s)").first, 4U);
+  EXPECT_EQ(limitOf("angle < 0.1 rad/s*t + 1 rad").first, 4U);
+  EXPECT_EQ(limitOf("angle^2 < 0.25").first, 4U);
 }
 
 TEST(Requirements, ThatMakeNoSenseAreRefusedInOneLine) {
@@ -118,7 +174,7 @@ TEST(Requirements, HaveThreeAnswersEach) {
   const Results results = run(read(withRequirements(four)));
   ASSERT_EQ(results.requirements.size(), 4U);
   const RequirementResult met = named(results, "met");
-  EXPECT_EQ(met.word, "met");
+  EXPECT_EQ(met.word, Decision::met);
   EXPECT_EQ(met.factor, 1);
   EXPECT_EQ(met.probabilityLower, 1);
   EXPECT_EQ(met.violationMost, 0);
@@ -126,14 +182,14 @@ TEST(Requirements, HaveThreeAnswersEach) {
   EXPECT_EQ(met.violating, 0);
   EXPECT_TRUE(std::isnan(met.shareLower));  // the samples are not independent
   const RequirementResult violated = named(results, "violated");
-  EXPECT_EQ(violated.word, "violated");
+  EXPECT_EQ(violated.word, Decision::violated);
   EXPECT_EQ(violated.probabilityUpper, 0);
   EXPECT_EQ(violated.violationLeast, 1);
   EXPECT_EQ(violated.violating, 16);
   // Uniform on π/6 (1 ± 0.01): below 0.527 with probability (0.527 / (π/6) - 0.99) / 0.02.
   const RequirementResult partly = named(results, "partly");
   const double share = (0.527 * 6 / 3.141592653589793 - 0.99) / 0.02;
-  EXPECT_EQ(partly.word, "partly");
+  EXPECT_EQ(partly.word, Decision::partly);
   EXPECT_LE(partly.probabilityLower, share + 1e-9);  // the share is rounded, as the nominal value is
   EXPECT_GE(partly.probabilityUpper, share - 1e-9);
   EXPECT_LT(partly.probabilityUpper - partly.probabilityLower, 1e-6);
@@ -144,7 +200,7 @@ TEST(Requirements, HaveThreeAnswersEach) {
   EXPECT_GT(partly.violation[0], 0.527);
   EXPECT_LE(partly.violationUpper, 0);
   EXPECT_EQ(partly.violationTime, 0);
-  EXPECT_EQ(named(results, "passes").word, "met");
+  EXPECT_EQ(named(results, "passes").word, Decision::met);
   EXPECT_THAT(jsonSummary(results, "inside", {"a", "b"}), HasSubstr("\"guaranteed\":\"partly\""));
 }
 
@@ -180,7 +236,7 @@ interval = "± 3.5 %"
 [[output]])");
   const Results results = run(read(text));
   const RequirementResult corner = named(results, "corner");
-  EXPECT_EQ(corner.word, "partly");
+  EXPECT_EQ(corner.word, Decision::partly);
   EXPECT_EQ(corner.violating, 0);
   EXPECT_EQ(results.stochastic.nameOf(corner.violationSample), "corner 7");
   EXPECT_LE(corner.violationUpper, 0);
@@ -196,7 +252,7 @@ TEST(Requirements, AreNotRefutedByRoundings) {
     text.replace(text.find("\"30 deg\""), 8, "0.3");
     text.replace(text.find("± 1 %"), 6, "± 10 %");
     const RequirementResult end = named(run(read(text)), "end");
-    EXPECT_TRUE(end.word == "open" || end.word == "met") << statement << ": " << end.word;
+    EXPECT_TRUE(end.word == Decision::open || end.word == Decision::met) << statement << ": " << wordOf(end.word);
     EXPECT_TRUE(std::isnan(end.violation[0])) << statement;
   }
 }
@@ -217,7 +273,7 @@ TEST(Requirements, AreMetWhereALimitIsReachedExactly) {
       text.replace(text.find("\"dynamics\""), 10, analysis);
       if (analysis[1] == 'k') text.replace(text.find("horizon"), text.find("compare") - text.find("horizon"), "");
       const RequirementResult end = named(run(read(text)), "end");
-      EXPECT_EQ(end.word == "met", isMet) << analysis << " " << statement << ": " << end.word;
+      EXPECT_EQ(end.word == Decision::met, isMet) << analysis << " " << statement << ": " << wordOf(end.word);
     }
 }
 
@@ -246,7 +302,7 @@ TEST(Requirements, KeepWhatWasProvedWhereTheEnclosureEnds) {
   const Results results = run(study);
   EXPECT_LT(results.interval.reached, 0.5);
   const RequirementResult met = named(results, "met");
-  EXPECT_EQ(met.word, "open");
+  EXPECT_EQ(met.word, Decision::open);
   EXPECT_NE(met.why, "");
   EXPECT_EQ(met.probabilityLower, 0);
   EXPECT_EQ(met.factor, 0);
@@ -256,9 +312,9 @@ TEST(Requirements, AreSampledWithoutAGuarantee) {
   std::string text = withRequirements(four);
   text.replace(text.find("[\"interval\", \"stochastic\", \"fuzzy\"]"), 35, "[\"stochastic\"]");
   const Results results = run(read(text));
-  EXPECT_EQ(named(results, "met").word, "open");
+  EXPECT_EQ(named(results, "met").word, Decision::open);
   EXPECT_EQ(named(results, "met").why, "no enclosure was asked for");
-  EXPECT_EQ(named(results, "partly").word, "partly");  // a flow of that sample's values proves it
+  EXPECT_EQ(named(results, "partly").word, Decision::partly);  // a flow of that sample's values proves it
   EXPECT_EQ(named(results, "met").violating, 0);
 }
 
@@ -298,14 +354,14 @@ always = "pull*height < 2 kJ"
 )"));
   std::vector<std::string> units;
   for (const Requirement& requirement : study.requirements)
-    units.push_back(study.outputs[requirement.margins.front()].unit);
+    units.push_back(study.outputs[requirement.firstMargin].unit);
   EXPECT_THAT(units, ::testing::ElementsAre("mm", "rad", "rad", "rpm", "m", "N", "N", "kN", "kJ"));
   const Results results = run(study, {});
-  const std::size_t height = 2, margin = study.requirements[0].margins.front();
+  const std::size_t height = 2, margin = study.requirements[0].firstMargin;
   for (std::size_t i = 0; i < results.time.size(); ++i)
     EXPECT_NEAR(results.interval.at.lower(i, margin), 200 - results.interval.at.upper(i, height), 1e-9);
-  EXPECT_EQ(named(results, "a").word, "met");
-  EXPECT_EQ(named(results, "d").word, "met");
+  EXPECT_EQ(named(results, "a").word, Decision::met);
+  EXPECT_EQ(named(results, "d").word, Decision::met);
 }
 
 /// A hinge that is driven at 2 rad/s beside one that turns at 1 rad/s: in one step, of angles that are kinks at first.
@@ -365,8 +421,8 @@ samples = 16
 times = 0
 )";
   const Results results = run(read(study), {});
-  EXPECT_EQ(results.comparison.verdict, "inside");
-  for (const RequirementResult& requirement : results.requirements) EXPECT_EQ(requirement.word, "met");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+  for (const RequirementResult& requirement : results.requirements) EXPECT_EQ(requirement.word, Decision::met);
   TemporaryFolder folder;  // of nothing that is uncertain there are no values that violate it
   writeResults(results, folder.path("r.h5"));
   EXPECT_EQ(differences(readResults(folder.path("r.h5")), results), std::vector<std::string>{});
@@ -389,9 +445,9 @@ always = "tip.position.z < -0.54 m"
 name = "lower"
 always = "tip.position.z < -0.8 m"
 )"));
-  EXPECT_EQ(named(results, "low").word, "met");
+  EXPECT_EQ(named(results, "low").word, Decision::met);
   const RequirementResult lower = named(results, "lower");
-  EXPECT_EQ(lower.word, "partly");
+  EXPECT_EQ(lower.word, Decision::partly);
   EXPECT_LE(lower.probabilityLower, std::acos(0.8));
   EXPECT_GE(lower.probabilityUpper, std::acos(0.8));
   EXPECT_LT(lower.probabilityUpper - lower.probabilityLower, 0.01);
@@ -464,14 +520,14 @@ always = "x < 1.5"
   const Results results = run(study);
   for (const char* name : {"small", "smallest"}) {
     const RequirementResult violated = named(results, name);
-    EXPECT_EQ(violated.word, "partly") << name;
+    EXPECT_EQ(violated.word, Decision::partly) << name;
     EXPECT_GE(violated.violationSample, 0) << name;
     EXPECT_LT(violated.violationUpper, 0) << name;
     EXPECT_EQ(violated.probabilityLower, 0) << name;  // of some courses it is met
     EXPECT_EQ(violated.probabilityUpper, 1) << name;
     expectViolation(study, results, violated);
   }
-  EXPECT_EQ(named(results, "held").word, "met");
+  EXPECT_EQ(named(results, "held").word, Decision::met);
   EXPECT_THROW(replayViolation(study, results, named(results, "held")), std::invalid_argument);
 }
 
@@ -481,7 +537,7 @@ TEST(Requirements, AreRefutedByACourseOfBoundedRate) {
       read(lagWith("[[requirement]]\nname = \"still\"\nalways = \"x - 0.9*u > -0.3\"\n", "rate = \"± 2/s\""));
   const Results results = run(study);
   const RequirementResult still = named(results, "still");
-  EXPECT_EQ(still.word, "partly");
+  EXPECT_EQ(still.word, Decision::partly);
   expectViolation(study, results, still);
 }
 
@@ -491,7 +547,7 @@ TEST(Requirements, AreViolatedInSimulationWhereNothingIsProved) {
   study.flow.maxWidth = 1e-300;  // flows end at once
   const Results results = run(study);
   const RequirementResult small = named(results, "small");
-  EXPECT_EQ(small.word, "open");
+  EXPECT_EQ(small.word, Decision::open);
   EXPECT_TRUE(small.isViolatedInSimulation);
   EXPECT_THAT(small.why, HasSubstr("a flow of its values alone ends"));
   expectViolation(study, results, small);
@@ -540,7 +596,7 @@ TEST(Requirements, AreRefutedByAPeakBetweenOutputTimes) {
       "v", "[0.99, 1.01]", "[[requirement]]\nname = \"peak\"\nalways = \"exp(-((x - 0.53)/0.002)^2) < 0.9\"\n")));
   const RequirementResult peak = named(results, "peak");
   EXPECT_EQ(peak.violating, 0);
-  EXPECT_THAT(peak.word, ::testing::AnyOf("partly", "violated"));
+  EXPECT_THAT(peak.word, ::testing::AnyOf(Decision::partly, Decision::violated));
   EXPECT_TRUE(peak.isViolatedBetween);
   EXPECT_NEAR(peak.violationTime * peak.violation[0], 0.53, 1e-3);
   EXPECT_LT(peak.violationUpper, 0);
@@ -551,12 +607,12 @@ TEST(Requirements, ThatStartAtTheirLimitAreMet) {
   for (const char* rate : {"v", "v*t/(1 s)", "v*(t/(1 s))^2", "v*cos(x)", "v - x"}) {
     const Results results =
         run(read(stateWith(rate, "\"± 10 %\"", "[[requirement]]\nname = \"above\"\nalways = \"x >= 0\"\n")));
-    EXPECT_EQ(named(results, "above").word, "met") << rate;
+    EXPECT_EQ(named(results, "above").word, Decision::met) << rate;
   }
   for (const char* rate : {"-v", "v*(t/(1 s) - 0.001)", "v*sin(6.2832*t/(1 s) - 0.0001)"}) {
     const Results results =
         run(read(stateWith(rate, "\"± 10 %\"", "[[requirement]]\nname = \"above\"\nalways = \"x >= 0\"\n")));
-    EXPECT_NE(named(results, "above").word, "met") << rate;
+    EXPECT_NE(named(results, "above").word, Decision::met) << rate;
   }
 }
 
@@ -569,8 +625,8 @@ TEST(Requirements, AreMetAtTheMomentOfAJump) {
                              "\"\n[[requirement]]\nname = \"more\"\neventually = \"where(t > " + at +
                              ", 1, 0) > 0.6\"\nuntil = \"" + at + "\"\n";
     const Results results = run(read(stateWith("v", "\"± 10 %\"", text)));
-    EXPECT_EQ(named(results, "once").word, "met") << moment;
-    EXPECT_NE(named(results, "more").word, "met") << moment;
+    EXPECT_EQ(named(results, "once").word, Decision::met) << moment;
+    EXPECT_NE(named(results, "more").word, Decision::met) << moment;
   }
 }
 
@@ -583,7 +639,7 @@ TEST(Requirements, SayHowFarTheyAreProved) {
   const Results results = run(study);
   const RequirementResult most = named(results, "most");
   ASSERT_LT(results.interval.reached, 0.5);
-  EXPECT_EQ(most.word, "open");
+  EXPECT_EQ(most.word, Decision::open);
   EXPECT_EQ(most.why, results.interval.why);
   EXPECT_LE(most.metUntil, results.interval.reached);
   EXPECT_GE(most.metUntil, results.interval.reached - 0.1);
@@ -659,8 +715,8 @@ always = "b < 1.05"
 [stochastic]
 samples = 64
 )"));
-  EXPECT_EQ(named(results, "fits").word, "open");
-  EXPECT_EQ(named(results, "not so").word, "partly");
+  EXPECT_EQ(named(results, "fits").word, Decision::open);
+  EXPECT_EQ(named(results, "not so").word, Decision::partly);
 }
 
 }  // namespace

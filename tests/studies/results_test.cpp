@@ -36,13 +36,15 @@ double other(double x) { return x > 0 || x < 0 ? std::nextafter(x, 0.0) : 0.5; }
 void change(const FieldValue& value, const Results& results) {
   const Bounds bounds = sampleBounds(results.time.size(), results.outputs.size(), 77, 1);
   const std::size_t levels = results.fuzzy.alpha.size();
-  std::visit(Visitor{[](double* x) { *x = other(*x); }, [](std::int64_t* x) { ++*x; },
-                     [](std::uint64_t* x) { *x ^= 1; }, [](bool* x) { *x = !*x; }, [](std::string* x) { *x += "?"; },
-                     [](WholeText x) { *x.text += "?"; }, [](std::vector<double>* v) { v->back() = other(v->back()); },
-                     [](std::vector<std::int64_t>* v) { ++v->back(); }, [&](Table* t) { *t = bounds.lower; },
-                     [&](Envelope* e) { *e = bounds; }, [&](std::vector<Table>* v) { v->back() = bounds.lower; },
-                     [&](std::vector<Envelope>* v) { v->assign(levels, bounds); }},
-             value);
+  std::visit(
+      Visitor{[](double* x) { *x = other(*x); }, [](std::int64_t* x) { ++*x; }, [](std::uint64_t* x) { *x ^= 1; },
+              [](bool* x) { *x = !*x; }, [](std::string* x) { *x += "?"; }, [](WholeText x) { *x.text += "?"; },
+              [](Choice x) { *x.value = static_cast<unsigned char>((*x.value + 1) % x.all.size()); },
+              [](std::vector<double>* v) { v->back() = other(v->back()); },
+              [](std::vector<std::int64_t>* v) { ++v->back(); }, [&](Table* t) { *t = bounds.lower; },
+              [&](Envelope* e) { *e = bounds; }, [&](std::vector<Table>* v) { v->back() = bounds.lower; },
+              [&](std::vector<Envelope>* v) { v->assign(levels, bounds); }},
+      value);
 }
 
 TEST(Description, NamesEveryFieldOnce) {
@@ -93,7 +95,9 @@ std::size_t longestGap(const Object& object, const std::vector<Field>& fields, c
   };
   (hold(&known), ...);
   for (const Field& field : fields)
-    std::visit(Visitor{[&](WholeText x) { hold(x.text); }, [&](const auto* x) { hold(x); }}, field.value);
+    std::visit(
+        Visitor{[&](WholeText x) { hold(x.text); }, [&](Choice x) { hold(x.value); }, [&](const auto* x) { hold(x); }},
+        field.value);
   std::size_t longest = 0, run = 0;
   for (const char held : isHeld) longest = std::max(longest, run = held != 0 ? 0 : run + 1);
   return longest;

@@ -280,7 +280,7 @@ TEST(RobotStudy, RunsWithUncertainNumbersByNameAndElementsOfItsOwn) {
   EXPECT_TRUE(isEqual(study.mechanism.nominal("slider.displacement"), Interval("0.02")));
   EXPECT_TRUE(contains(study.mechanism.nominal("hinge.angle"), 1.0471975511965976));
   const Results results = run(study);
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(results.robotText, sampleRobot);
   EXPECT_EQ(
       readStudyText(results.studyText, "elsewhere/s.toml", elementTypes(), FilesAtHand{results.robotText, {}}).robot,

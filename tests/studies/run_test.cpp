@@ -70,7 +70,7 @@ TEST(Run, TellsOutputsInTheUnitsThatAreWanted) {
   text.replace(text.find("quantity = \"hinge.angle\"\n[[output]]"), 24, "quantity = \"hinge.angle\"\nunit = \"deg\"");
   text.replace(text.find("quantity = \"tip.position.z\""), 27, "quantity = \"tip.position.z\"\nunit = \"mm\"");
   const Results told = run(readStudyText(text, "s.toml"));
-  EXPECT_EQ(told.comparison.verdict, "inside");
+  EXPECT_EQ(told.comparison.verdict, Agreement::inside);
   EXPECT_EQ(told.outputs[0].unit, "deg");
   EXPECT_EQ(told.outputs[1].unit, "mm");
   EXPECT_EQ(told.outputs[2].unit, "deg");  // of the margin: what it compares is told in these
@@ -105,11 +105,11 @@ unit = "mm"
 always = "gap > 0.05 mm"
 )";
   const Results results = run(readStudyText(chain, "s.toml"));
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_NEAR(results.interval.at.lower(0, 0), 0, 1e-12);
   EXPECT_NEAR(results.interval.at.upper(0, 0), 0.4, 1e-12);
   EXPECT_NEAR(results.stochastic.mean(0, 0), 0.2, 1e-3);
-  EXPECT_EQ(results.requirements[0].word, "partly");
+  EXPECT_EQ(results.requirements[0].word, Decision::partly);
   constexpr double probability = 1 - 0.05 * 0.05 * 0.05 / 6 / (0.2 * 0.1 * 0.1);  // without a corner of the box
   EXPECT_LE(results.requirements[0].probabilityLower, probability);
   EXPECT_GE(results.requirements[0].probabilityUpper, probability);
@@ -134,7 +134,7 @@ TEST(Run, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
   };
   const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
   const ComparisonResult& comparison = results.comparison;
-  EXPECT_EQ(comparison.verdict, "incomplete");
+  EXPECT_EQ(comparison.verdict, Agreement::incomplete);
   EXPECT_EQ(comparison.excursion, 0);
   EXPECT_THAT(comparison.disputed, Not(IsEmpty()));
   EXPECT_THAT(comparison.disputed, Each(Field(&DisputedSample::decided, "interrupted")));
@@ -149,7 +149,7 @@ TEST(Run, ComparesAFirstBlockOfSamplesWithAnEnclosureThatIsInterrupted) {
     if (task == "enclosure") cancelled = true;
   };
   const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
   EXPECT_EQ(results.stochastic.integrated, 256 + 2 + results.stochastic.alphaCorners + 1);
   EXPECT_EQ(results.stochastic.stopped, "the run was interrupted");
   EXPECT_EQ(results.stochastic.reached, 0.5);
@@ -242,7 +242,7 @@ interval = "± 1 %"
 )";
   text.insert(text.find("[[uncertain]]"), more);
   const Results results = run(readStudyText(text, "s.toml"));
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(results.stochastic.alphaCorners, 9 * 16);
   const std::size_t last = results.time.size() - 1;
   for (std::size_t level = 0; level < 10; ++level) {
@@ -261,7 +261,7 @@ TEST(Run, ReachesExtremesInsideAlphaCutsByTheTransformationMethod) {
     text.insert(text.find("[[uncertain]]"), "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 5 %\"\n");
     found.push_back(run(readStudyText(text + "[fuzzy]\nmethod = \"" + method + "\"\n", "s.toml")));
     const Results& results = found.back();
-    EXPECT_EQ(results.comparison.verdict, "inside");
+    EXPECT_EQ(results.comparison.verdict, Agreement::inside);
     EXPECT_EQ(results.fuzzy.transformation.method, method);
     EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
   }
@@ -289,7 +289,7 @@ TEST(Run, SamplesWhereTheEnclosureTellsThatOutputsAreExtreme) {
   text.insert(text.find("[[uncertain]]"), "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 5 %\"\n");
   const Results results = run(readStudyText(text, "s.toml"));
   const StochasticResult& stochastic = results.stochastic;
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(stochastic.samples + stochastic.corners, 16 + 4);
   EXPECT_EQ(stochastic.alphaPoints, 0);
   ASSERT_THAT(stochastic.extremes.number, Not(IsEmpty()));
@@ -306,7 +306,7 @@ TEST(Run, SamplesWhereTheEnclosureTellsThatOutputsAreExtreme) {
 
 TEST(Run, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
   const Results results = run(sampleWith("[[uncertain]]", threeUncertain));
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(results.stochastic.corners, 8);
   EXPECT_EQ(results.stochastic.packWidth, 64);
   EXPECT_EQ(results.uncertain.size(), 3U);
@@ -317,7 +317,7 @@ TEST(Run, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
 TEST(Run, MakesTheNumberUncertainThatTheStudyNames) {
   // At the start the height is -length cos(30 deg), and the angle does not depend on the length.
   const Results length = run(sampleWith("quantity = \"hinge.angle\"\ninterval", "quantity = \"rod.length\"\ninterval"));
-  EXPECT_EQ(length.comparison.verdict, "inside");
+  EXPECT_EQ(length.comparison.verdict, Agreement::inside);
   const double height = 0.5 * std::cos(std::acos(-1.0) / 6);
   EXPECT_NEAR(length.interval.at.lower(0, 1), -1.01 * height, 1e-12);
   EXPECT_NEAR(length.interval.at.upper(0, 1), -0.99 * height, 1e-12);
@@ -336,7 +336,7 @@ TEST(Run, HoldsWhatVariesInTime) {
     EXPECT_EQ(problem.varying[0].parameter, 0);
     for (const Box& level : problem.levels) EXPECT_TRUE(isEqual(level[2], problem.box[2]));
     const Results results = run(study, {});
-    EXPECT_EQ(results.comparison.verdict, "inside");
+    EXPECT_EQ(results.comparison.verdict, Agreement::inside);
     EXPECT_LT(results.comparison.maximum, 1.5);
     EXPECT_EQ(results.stochastic.switching.present, !std::isfinite(study.uncertain[0].rate));
     EXPECT_EQ(results.uncertain[0].distribution,
@@ -386,7 +386,7 @@ times = 0
   const Study study = readStudyText(text, "s.toml");
   const Results results = run(study);
   const StochasticResult& stochastic = results.stochastic;
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_LT(results.comparison.maximum, 1.04);
   EXPECT_EQ(stochastic.integrated, stochastic.planned());
   // The margin has the worst courses of its output; those of the first five times, half a turn, stand at an end.
@@ -399,7 +399,7 @@ times = 0
   for (const Envelope& cut : results.fuzzy.inner) EXPECT_EQ(cut.upper(20, 0), stochastic.envelope.upper(20, 0));
   // Of samples only these come so far.
   const RequirementResult& small = results.requirements[0];
-  EXPECT_EQ(small.word, "partly");
+  EXPECT_EQ(small.word, Decision::partly);
   EXPECT_GE(small.violationSample, stochastic.firstExtreme());
   EXPECT_GT(small.violation[0], 3);
   const ReplayedSample violating = replayViolation(study, results, small),
@@ -427,7 +427,7 @@ TEST(Run, ComparesAlphaCutsWithoutAnEnclosureOfTheWholeBox) {
   EXPECT_TRUE(results.fuzzy.present);
   EXPECT_EQ(results.fuzzy.inner.size(), 11U);
   EXPECT_TRUE(results.comparison.present);
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
 }
 
 TEST(Run, StopsWhenToldAndSaysSo) {
@@ -435,7 +435,7 @@ TEST(Run, StopsWhenToldAndSaysSo) {
   RunOptions options;
   options.cancelled = &cancelled;
   const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
   EXPECT_LT(results.interval.reached, 0.5);
   EXPECT_EQ(results.interval.why, "the run was interrupted");
   EXPECT_EQ(results.stochastic.stopped, "the run was interrupted");
@@ -470,7 +470,7 @@ TEST(Run, EndsAnEnclosureThatTakesTooLongAndSamplesAllTheSame) {
   EXPECT_LT(results.interval.reached, 20);
   EXPECT_EQ(results.stochastic.stopped, "");
   EXPECT_EQ(results.stochastic.integrated, 16 + 2 + 18 + 1 + 77);
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
 }
 
 TEST(Run, EndsARunThatTakesTooLong) {
@@ -487,7 +487,7 @@ TEST(Run, EndsARunThatTakesTooLong) {
   EXPECT_GT(results.stochastic.integrated, 0);
   EXPECT_LT(results.stochastic.integrated, results.stochastic.planned());
   EXPECT_EQ(results.stochastic.reached, 0.5);
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
   EXPECT_FALSE(std::isnan(results.stochastic.envelope.lower(5, 0)));
   EXPECT_EQ(results.limits.time, limit);
   EXPECT_GE(results.cpu, limit);
@@ -507,7 +507,7 @@ TEST(Run, LeavesTimeToTheEnclosureWhereTheFirstSamplesTakeLong) {
   EXPECT_GT(results.interval.reached, 0);
   EXPECT_LT(results.stochastic.integrated, 257);
   EXPECT_THAT(results.stochastic.stopped, ::testing::StartsWith("the time limit of "));
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
 }
 
 TEST(Run, GoesOnWithTheFirstSamplesAfterAnEnclosureThatLeavesThemTime) {
@@ -525,7 +525,7 @@ TEST(Run, GoesOnWithTheFirstSamplesAfterAnEnclosureThatLeavesThemTime) {
   const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
   EXPECT_EQ(results.stochastic.stopped, "");
   EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_GT(sampledBefore, 0);
   EXPECT_LT(sampledBefore, 0.9);
 }
@@ -553,7 +553,7 @@ TEST(Run, AFailureBehindWhatWasProvedCostsNothingOfIt) {
   };
   const Results results = run(study, options);
   EXPECT_EQ(results.stopped, "an internal failure: no\\nmore");
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
   EXPECT_EQ(results.interval.reached, study.horizon);
   options.progress = [](const std::string& task, double) {
     if (task == "enclosure") throw std::runtime_error("nothing");
@@ -569,7 +569,7 @@ TEST(Run, EndsSamplesThatTakeTooLongAndNamesThem) {
               ::testing::MatchesRegex("sample 0 failed at 0[.0-9]* s: the time limit of 1e-09 s "
                                       "CPU for a sample was reached.*"));
   EXPECT_LT(results.stochastic.reached, 0.5);
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
 }
 
 TEST(Run, EndsWhereThereIsNoMoreMemory) {
@@ -578,7 +578,7 @@ TEST(Run, EndsWhereThereIsNoMoreMemory) {
   const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
   EXPECT_EQ(results.interval.why, "the memory limit of 0.000667 GB for the enclosure was reached");
   EXPECT_EQ(results.stochastic.stopped, "the memory limit of 0.001 GB for the whole run was reached");
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
   EXPECT_GT(results.memory, 1e6);
 }
 
@@ -603,7 +603,7 @@ TEST(Run, EnclosesManyUncertainQuantitiesWithoutBisectingThem) {
   std::string text = piecesOfARod(300, "");
   text.replace(text.find("sobol"), 5, "random");
   const Results results = run(readStudyText(text, "s.toml"));
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(results.interval.pieces, 1);
   EXPECT_LT(results.comparison.maximum, 1.5);
   EXPECT_LT(results.cpu, 60);
@@ -640,7 +640,7 @@ TEST(Run, KeepsPlainIntervalsOfKinematicsThatIsInterrupted) {
   options.cancelled = &cancelled;
   const Study study = kinematicStudy();
   const Results results = run(study, options), whole = run(study);
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
   EXPECT_EQ(results.interval.why, "the run was interrupted");
   EXPECT_EQ(results.fuzzy.why, "the run was interrupted");
   for (std::size_t j = 0; j < 2; ++j) {
@@ -658,12 +658,12 @@ TEST(Run, EndsKinematicsAtTheLimitOfTheEnclosure) {
   EXPECT_EQ(results.interval.why, "the time limit of 1e-09 s CPU for the enclosure was reached");
   EXPECT_EQ(results.stochastic.stopped, "");
   EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.comparison.verdict, Agreement::incomplete);
 }
 
 TEST(Run, EnclosesKinematicsWithAnUncertainParameter) {
   const Results results = run(kinematicStudy());
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(results.time, std::vector<double>{0.0});
   for (std::size_t j = 0; j < 2; ++j) {
     EXPECT_LE(results.interval.direct.lower(0, j), results.interval.at.lower(0, j));
@@ -686,7 +686,7 @@ TEST(Run, MovesAnArmWithoutMassesInKinematics) {
       "[[uncertain]]\nquantity = \"joint2.angle\"\ninterval = \"± 1 %\"\n[[output]]\nquantity = \"K3.position.z\"\n"
       "[stochastic]\nsamples = 16\n";
   const Results results = run(readStudyText(text, "s.toml"));
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_LE(results.interval.at.lower(0, 0), -1.3660254);  // -(cos 30° + cos 60° + cos 90°)
   EXPECT_GE(results.interval.at.upper(0, 0), -1.3660254);
 }

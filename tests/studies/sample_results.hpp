@@ -99,7 +99,7 @@ inline Results sampleResults() {
   r.fuzzy.transformation = {true, "extended", {0}, {0.25}, {0, 0.1, 0.2, 0.3, nan, 0.5}, {0, 0.01, 0.02, 0, nan, 0.01}};
   r.fuzzy.influence = {true, {0, 0.02}, {0.5, nan, 1, 0.25}};
   r.comparison.present = true;
-  r.comparison.verdict = "incomplete";
+  r.comparison.verdict = Agreement::incomplete;
   r.comparison.why = "the run was interrupted";
   r.comparison.overestimation = sampleGrid(3, 2, 2);
   r.comparison.overestimation(0, 1) = nan;
@@ -109,13 +109,15 @@ inline Results sampleResults() {
   r.comparison.maximumOf = {12, nan};
   r.comparison.disputed = {{17, 1, 0, 0.09, 0.1, 1.1, 0.01, 1e-9, "Taylor 53 bits", true, 2, {0.01, 0.25}},
                            {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, "unresolved", false, -1, {0, 0}}};
+  r.margins = {{0, "tip.position.z", true, "0.5 m", "m", false, 0, 0, true},
+               {1, "energy", true, "0 J", "J", true, 1, 0, true}};
   r.requirements.resize(2);
   RequirementResult& met = r.requirements[0];
   met.name = "energy kept";
   met.statement = "always energy > 0 J";
   met.until = 0.02;
   met.margin = 1;
-  met.word = "met";
+  met.word = Decision::met;
   met.met = met.factor = met.probabilityLower = 1;
   met.violationMost = 0;
   met.violation = {nan};
@@ -125,8 +127,7 @@ inline Results sampleResults() {
   partly.isAlways = false;
   partly.from = 0.005;
   partly.until = 0.01;
-  partly.metAtZero = 1;
-  partly.word = "partly";
+  partly.word = Decision::partly;
   partly.why = "the enclosure is not tight enough to tell";
   partly.met = 0.5;
   partly.violated = 0.25;
@@ -178,8 +179,14 @@ inline Results sampleResults() {
   s.samples = 256;
   s.firstSampled = s.totalSampled = {0.625, nan, nan, 0.5};
   s.firstError = s.totalError = {0.03125, nan, nan, 0.25};
-  r.derivatives = {true, 0.01,      "the run was interrupted", "the run was interrupted",
-                   0.75, {0, 0.01}, {1, nan, -2, 0.25},        {1.5, nan, -1, 0.5}};
+  DerivativeResult& derivatives = r.derivatives;
+  derivatives.present = true;
+  derivatives.reached = 0.01;
+  derivatives.why = derivatives.stopped = "the run was interrupted";
+  derivatives.cpu = 0.75;
+  derivatives.time = {0, 0.01};
+  derivatives.lower = {1, nan, -2, 0.25};
+  derivatives.upper = {1.5, nan, -1, 0.5};
   SurrogateResult& polynomials = r.surrogate;
   polynomials.present = true;
   polynomials.centre = {1};

@@ -61,7 +61,7 @@ name = "constant"
 quantity = "3*sin(hinge.angle)*sin(hinge.angle) + 3*cos(hinge.angle)*cos(hinge.angle) + 1"
 )");
   const Results results = run(study, {});
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_TRUE(std::isfinite(results.comparison.maximumOf[0]));
   EXPECT_TRUE(std::isnan(results.comparison.maximumOf[2])) << results.comparison.maximumOf[2];
   EXPECT_TRUE(std::isnan(results.comparison.maximumOf[3])) << results.comparison.maximumOf[3];

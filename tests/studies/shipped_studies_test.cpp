@@ -61,7 +61,7 @@ TEST(TipPosition, ReproducesBothPublishedRows) {  // LNCS 5045, section 4.2
 
 TEST(TipPosition, HoldsTheExactRange) {
   const Results results = runShipped("tip_position", 200);
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_EQ(results.stochastic.relativeTolerance, 0) << "nothing is integrated";
   // Both outputs rise with the angle, so that the corners, which are sampled, give the exact range.
   EXPECT_LT(results.comparison.maximum, 1.001);
@@ -80,10 +80,10 @@ TEST(DoublePendulum, KeepsEverySampleInsideOverThreeSeconds) {
   EXPECT_EQ(results.time[rowOf(results, 0.57)], 0.57);
   EXPECT_EQ(results.interval.reached, 3.0) << results.interval.why;
   EXPECT_EQ(results.stochastic.reached, 3.0) << results.stochastic.why;
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   ASSERT_EQ(results.requirements.size(), 2U);
-  EXPECT_EQ(results.requirements[0].word, "met");
-  EXPECT_EQ(results.requirements[1].word, "partly");
+  EXPECT_EQ(results.requirements[0].word, Decision::met);
+  EXPECT_EQ(results.requirements[1].word, Decision::partly);
   EXPECT_LT(results.requirements[1].probabilityUpper - results.requirements[1].probabilityLower, 0.01);
   for (std::size_t i = 0; i < results.time.size(); ++i)
     for (std::size_t j = 0; j < results.outputs.size(); ++j) {
@@ -152,7 +152,7 @@ TEST(MastInWind, HoldsTheWorstCoursesAndHardlyMore) {
   options.jobs = 2;
   options.samples = 64;
   const Results results = run(study, options);
-  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   ASSERT_EQ(results.interval.reached, 5.0) << results.interval.why;
   const std::size_t row = rowOf(results, 5.0);
   for (std::size_t j = 0; j < 2; ++j) {

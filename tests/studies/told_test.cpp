@@ -27,6 +27,13 @@ TEST(Told, HoldsTheNumbersOfTheOtherUnit) {
   EXPECT_TRUE(contains(Told("kg", "g").of(Interval("0.25")), 250.0));
 }
 
+TEST(Told, IsOfAnyUnit) {
+  EXPECT_EQ(Told("mm", "m").of(250.0), 0.25);
+  EXPECT_TRUE(contains(Told("deg", "rad").of(Interval(180.0)), 3.141592653589793));
+  EXPECT_EQ(Told("1/s", "1/s").of(3.0), 3);
+  EXPECT_EQ(Told("", "deg").unit(), "");  // no number is an angle
+}
+
 TEST(Told, IsTheSiUnitWhereNoOtherIsStated) {
   for (const char* stated : {"", "rad", "mm", "%", "no unit", "2", "(", "deg +"}) {
     const Told told("rad", stated);

@@ -46,7 +46,7 @@ struct Chain {
     std::vector<int> outputs;
     for (int i = 0; i < g.outputs(); ++i) outputs.push_back(i);
     question.margins = outputs;
-    question.isMetAtZero.assign(outputs.size(), 0);
+    question.isStrict.assign(outputs.size(), 1);
     return gamut::examine(*modelImage(g, 0, box, outputs), question, cells);
   }
 };

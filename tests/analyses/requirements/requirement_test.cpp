@@ -52,7 +52,7 @@ struct Question {
     CellQuestion question{when, {}, {}, from, until > 0 ? until : tube.reachedTimes() - 1};
     for (int i = 0; i < g.outputs(); ++i) {
       question.margins.push_back(i);
-      question.isMetAtZero.push_back(0);
+      question.isStrict.push_back(1);
     }
     return gamut::examine(*tube.models(), question, quantities, options);
   }

@@ -10,5 +10,5 @@ using namespace gamut;
 int main(int, char** arguments) {
   writeResults(run(readStudy(arguments[1])), "study.h5");
   const Results results = readResults("study.h5");
-  return judge(results).word == "inside" && !renderReport(results).empty() ? 0 : 1;
+  return judge(results).word == Agreement::inside && !renderReport(results).empty() ? 0 : 1;
 }
