@@ -558,7 +558,7 @@ std::string textSummary(const Results& results) {
     if (cpu >= leastCpuTold) costs.push_back(fmt::format("{} {}", what, cpuText(cpu)));
   };
   for (const Part* part : results.parts())
-    if (part->present) spend(part->title(), part->cpu);
+    if (part->present) spend(part->title(), part->spent());
   for (const CostInfo& cost : results.costs) spend(cost.what, cost.cpu);
   if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
   text += statisticsText(results);

@@ -64,7 +64,8 @@ std::string figuresTable(const Results& results, const Verdict& verdict, std::si
 std::string costTable(const Results& results) {
   TableText table("Cost", {"analysis", "CPU time", "amount"});
   for (const Part* part : results.parts())
-    if (part->present && part->cpu > 0) table.row(part->title(), {cpuText(part->cpu), part->amount()});
+    if (part->present && (part->spent() > 0 || !part->amount().empty()))
+      table.row(part->title(), {cpuText(part->spent()), part->amount()});
   for (const CostInfo& cost : results.costs)
     if (cost.cpu >= leastCpuTold) table.row(cost.what, {cpuText(cost.cpu), ""});
   if (std::isfinite(results.limits.time)) {

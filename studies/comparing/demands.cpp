@@ -50,7 +50,7 @@ bool isSameDemand(const Results& first, const RequirementResult& one, const Resu
     return a.what == b.what && a.isAbove == b.isAbove && a.limitText == b.limitText && a.isStrict == b.isStrict;
   };
   return one.isAlways == other.isAlways && one.from == other.from && one.until == other.until &&
-         one.margins == other.margins &&
+         one.margins == other.margins && !marginsOf(first, one).empty() &&
          std::ranges::equal(marginsOf(first, one), marginsOf(second, other), isSameTerm);
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "studies/results/fields.hpp"
@@ -11,25 +12,23 @@ namespace gamut {
 
 struct Part {
   bool present = false;  ///< it was asked for, and there is something
-  double reached = 0;    ///< s: what it says holds up to here; 0 in kinematics, and where time plays no role
   std::string why;       ///< why it is less than was asked for; empty if it is not
   std::string stopped;   ///< why the run ended before all was done; empty if it did not
-  double cpu = 0;        ///< s
 
   /// In tables and sentences: "enclosure", "4096 samples".
   virtual std::string title() const = 0;
   /// What it consists of: "4 pieces, 210 steps".
   virtual std::string amount() const { return {}; }
+  /// CPU time, s; 0 of what is counted with another part.
+  virtual double spent() const { return 0; }
   /// Adds the groups of this part.
   virtual void describe(std::vector<Group>& groups) = 0;
 
   /// The fields of all parts, then those of one.
   std::vector<Field> fieldsAnd(std::vector<Field> others) {
     std::vector<Field> fields{
-        {"reached", &reached, unit::second, "time up to which it came", {}},
         {"why", &why, unit::none, "why it is less than was asked for; empty if it is not", {}},
-        {"stopped", &stopped, unit::none, "why the run ended before all of it was done; empty if it did not", {}},
-        {"cpu", &cpu, unit::second, "CPU time", {}}};
+        {"stopped", &stopped, unit::none, "why the run ended before all of it was done; empty if it did not", {}}};
     fields.insert(fields.end(), others.begin(), others.end());
     return fields;
   }
@@ -38,8 +37,25 @@ struct Part {
   ~Part() = default;
 };
 
+/// A part that holds up to some time.
+struct TimedPart : Part {
+  double reached = 0;  ///< s; 0 in kinematics
+  double cpu = 0;      ///< s
+
+  double spent() const override { return cpu; }
+  /// The fields of all of these, then those of one.
+  std::vector<Field> fieldsAnd(std::vector<Field> others) {
+    others.insert(others.begin(), {{"reached", &reached, unit::second, "time up to which it came", {}},
+                                   {"cpu", &cpu, unit::second, "CPU time", {}}});
+    return Part::fieldsAnd(std::move(others));
+  }
+
+ protected:
+  ~TimedPart() = default;
+};
+
 /// A part that a study asks for by `compare`: the motion as it is guaranteed, probable or possible.
-struct Answer : Part {
+struct Answer : TimedPart {
   /// In `compare`, and of the cost in JSON: "interval".
   virtual std::string_view word() const = 0;
 

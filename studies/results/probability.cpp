@@ -11,7 +11,8 @@ constexpr std::string_view times = "/distribution/time", points = "/distribution
 std::vector<Field> fieldsOf(DistributionResult& d) {
   using namespace dimension;
   return d.fieldsAnd(
-      {{"wanted", &d.wanted, unit::one, "gap between the bounds that was aimed at", {}, allowed::share},
+      {{"cpu", &d.cpu, unit::second, "CPU time, that of sensitivities and of flows for both included", {}},
+       {"wanted", &d.wanted, unit::one, "gap between the bounds that was aimed at", {}, allowed::share},
        {"gap", &d.gap, unit::one, "the greatest that was left; NaN if nothing is known of some", {}, allowed::share},
        {"band",
         &d.band,

@@ -10,8 +10,9 @@
 namespace gamut {
 
 /// Bounds of distribution functions, of all outputs but the requirements' margins, at some output times; of all joint
-/// distributions that the quantities may have. Its CPU time is that of sensitivities and of all flows for both, too.
+/// distributions that the quantities may have.
 struct DistributionResult final : Part {
+  double cpu = 0;                    ///< s, sensitivities and all flows for both included
   double wanted = 0;                 ///< gap that was aimed at
   double gap = 0;                    ///< the greatest; 1 if some are not known at all
   double band = 0;                   ///< half, of Dvoretzky, Kiefer and Wolfowitz at 95 %; 0: none holds
@@ -29,6 +30,7 @@ struct DistributionResult final : Part {
   }
 
   std::string title() const override { return "probabilities"; }
+  double spent() const override { return cpu; }
   std::string amount() const override;
   void describe(std::vector<Group>& groups) override;
 };
@@ -48,7 +50,7 @@ struct SensitivityResult final : Part {
 };
 
 /// Enclosures of the derivatives of outputs by uncertain quantities, over all values of these.
-struct DerivativeResult final : Part {
+struct DerivativeResult final : TimedPart {
   std::vector<double> time;          ///< s: some output times, up to `reached`
   std::vector<double> lower, upper;  ///< [time][output][quantity], in the output's unit by the quantity's; NaN by what
                                      ///< varies in time
