@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "studies/study.hpp"
+#include "studies/machine.hpp"
 
 namespace gamut::benchmarks {
 namespace {
@@ -27,7 +27,7 @@ std::string chainText(int joints, const char* head) {
 
 void readStudyOf(benchmark::State& state, const char* head) {
   const std::string text = chainText(static_cast<int>(state.range(0)), head);
-  for (auto _ : state) benchmark::DoNotOptimize(readStudyText(text, "chain.toml"));
+  for (auto _ : state) benchmark::DoNotOptimize(Machine(readStudyText(text, "chain.toml")));
   state.SetComplexityN(state.range(0));
 }
 

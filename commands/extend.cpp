@@ -53,10 +53,10 @@ void noteChanges(const ExtendArguments& arguments, const Results& before, const 
 
 ExitCode extend(const ExtendArguments& arguments) {
   const Results before = readResults(arguments.input);
-  const Study study = studyOf(before, arguments.input);
+  const Machine machine(studyOf(before, arguments.input));
   RunOptions options = runOptions(arguments);
   options.samples = arguments.samples;
-  checkMemory(study, options);
+  checkMemory(machine.study, options);
   OutputFile resultsFile = reserveResults(arguments);
   OutputFile reportFile = reserveReport(arguments);
   noteInterrupts();
@@ -64,7 +64,7 @@ ExitCode extend(const ExtendArguments& arguments) {
   options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
   Extension extension;
   try {
-    extension = gamut::extend(study, before, options);
+    extension = gamut::extend(machine, before, options);
   } catch (const std::invalid_argument& error) {
     throw UsageError(arguments.input + ": " + error.what());
   }

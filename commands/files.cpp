@@ -23,12 +23,12 @@ StudyText readStudyFile(const std::string& path) {
   }
 }
 
-Study readStudyNoting(const std::string& path, bool isQuiet) {
+Machine readMachine(const std::string& path, bool isQuiet) {
   const auto [text, name] = readStudyFile(path);
-  Study study = readStudyText(text, name);
+  Machine machine(readStudyText(text, name));
   if (!isQuiet)
-    for (const std::string& note : study.notes) fmt::print(stderr, "{}\n", note);
-  return study;
+    for (const std::string& note : machine.study.notes) fmt::print(stderr, "{}\n", note);
+  return machine;
 }
 
 Study studyOf(const Results& results, const std::string& path) {

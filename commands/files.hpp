@@ -4,7 +4,8 @@
 #include <string>
 
 #include "studies/atomic_file.hpp"
-#include "studies/study.hpp"
+#include "studies/machine.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut {
 
@@ -16,8 +17,9 @@ struct StudyText {
 /// Of a file, or of standard input if the path is "-". Throws StudyError.
 StudyText readStudyFile(const std::string& path);
 
-/// Reads a study, likewise; says on standard error, unless `isQuiet`, what may be a mistake in it. Throws StudyError.
-Study readStudyNoting(const std::string& path, bool isQuiet);
+/// The machine of a study, likewise; says on standard error, unless `isQuiet`, what may be a mistake in the study.
+/// Throws StudyError.
+Machine readMachine(const std::string& path, bool isQuiet);
 
 /// The study that results from `path` are of, with the files that it names, as they hold them. Throws StudyError, or
 /// UsageError if they make no sense.

@@ -12,9 +12,9 @@
 #include "commands/robot_texts.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
+#include "studies/machine.hpp"
 #include "studies/printable.hpp"
 #include "studies/robot.hpp"
-#include "studies/study.hpp"
 
 namespace gamut::commands {
 
@@ -44,7 +44,7 @@ std::string pathFrom(const std::string& study, const std::string& file) {
 /// What it takes to run is not in every robot's file.
 void noteWhatIsAmiss(const std::string& study, const std::string& path, const std::string& robot) {
   try {
-    readStudyText(study, path, elementTypes(), FilesAtHand{robot, {}});
+    Machine(readStudyText(study, path, elementTypes(), FilesAtHand{robot, {}}));
   } catch (const StudyError& error) {
     fmt::print(stderr, "note: this study does not run as it is: {}\n", error.what());
   }

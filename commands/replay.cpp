@@ -83,7 +83,7 @@ std::string csv(const Study& study, const ReplayedSample& sample) {
   fmt::format_to(end, "{}\n", fmt::join(headings, ","));
   for (std::size_t i = 0; i < sample.times; ++i) {
     std::vector<double> row;
-    if (moves) row.push_back(study.motion.times[i]);
+    if (moves) row.push_back(study.times[i]);
     for (std::size_t j = 0; j < study.outputs.size(); ++j) row.push_back(sample.trajectory(i, j));
     row.insert(row.end(), values.begin(), values.end());
     fmt::format_to(end, "{}\n", fmt::join(row, ","));
@@ -148,16 +148,16 @@ ExitCode replay(const ReplayArguments& arguments) {
     throw UsageError(arguments.results +
                      ": holds no samples; expected results of a study that compares \"stochastic\"");
   const std::size_t number = requirement == nullptr ? numberOf(arguments, results.stochastic) : 0;
-  const Study study = studyOf(results, arguments.results);
+  const Machine machine(studyOf(results, arguments.results));
   ReplayedSample sample;
   const auto table = [&] {
     try {
-      sample = requirement == nullptr ? gamut::replay(study, results, number)
-                                      : replayViolation(study, results, *requirement);
+      sample = requirement == nullptr ? gamut::replay(machine, results, number)
+                                      : replayViolation(machine, results, *requirement);
     } catch (const std::invalid_argument& error) {
       throw UsageError(arguments.results + ": " + error.what());
     }
-    return csv(study, sample);
+    return csv(machine.study, sample);
   };
   if (arguments.output.empty() || arguments.output == "-")
     sayOut(table());

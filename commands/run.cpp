@@ -43,12 +43,12 @@ void nameOutputs(RunCommandArguments& arguments) {
 }
 
 ExitCode run(RunCommandArguments arguments) {
-  const Study study = readStudyNoting(arguments.study, arguments.quiet);
+  const Machine machine = readMachine(arguments.study, arguments.quiet);
   nameOutputs(arguments);
   RunOptions options = runOptions(arguments);
   options.seed = arguments.seed;
   options.samples = arguments.samples;
-  checkMemory(study, options);
+  checkMemory(machine.study, options);
   OutputFile resultsFile = reserve(arguments.results, arguments.study, arguments.force);
   OutputFile reportFile = reserve(arguments.report, arguments.study, arguments.force);
   noteInterrupts();
@@ -56,9 +56,9 @@ ExitCode run(RunCommandArguments arguments) {
   options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
   Results results;
   try {
-    results = gamut::run(study, options);
+    results = gamut::run(machine, options);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(study.file + ": " + error.what());
+    throw UsageError(machine.study.file + ": " + error.what());
   }
   bar.wipe();
 

@@ -121,7 +121,7 @@ void checkMemory(const Study& study, const RunOptions& options) {
         fmt::format("{}: samples of {} at {} need {:.3g} GB, the memory limit is {:.3g} GB; expected a limit "
                     "of at least {:.3g} GB, or fewer outputs or output times",
                     study.file, countText(static_cast<long long>(study.outputs.size()), "output"),
-                    countText(static_cast<long long>(study.motion.times.size()), "time"), needed / 1e9, limit / 1e9,
+                    countText(static_cast<long long>(study.times.size()), "time"), needed / 1e9, limit / 1e9,
                     std::ceil(needed / 1e6) / 1e3));
 }
 

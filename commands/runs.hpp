@@ -7,7 +7,6 @@
 #include "commands/exit_codes.hpp"
 #include "studies/atomic_file.hpp"
 #include "studies/running/run.hpp"
-#include "studies/study.hpp"
 
 namespace gamut {
 

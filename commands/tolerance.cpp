@@ -98,7 +98,8 @@ std::string json(const Study& study, const AllowedDeviations& found) {
 }
 
 ExitCode tolerance(const ToleranceArguments& arguments) {
-  const Study study = readStudyNoting(arguments.study, arguments.quiet);
+  const Machine machine = readMachine(arguments.study, arguments.quiet);
+  const Study& study = machine.study;
   ToleranceOptions options;
   options.jobs = arguments.jobs;
   options.cancelled = &interrupted();
@@ -108,7 +109,7 @@ ExitCode tolerance(const ToleranceArguments& arguments) {
   options.progress = [&](double fraction) { bar.update("tolerances", fraction); };
   AllowedDeviations found;
   try {
-    found = findTolerances(study, options);
+    found = findTolerances(machine, options);
   } catch (const std::invalid_argument& error) {
     throw UsageError(fmt::format("{}: {}", study.file, error.what()));
   }

@@ -19,13 +19,14 @@ struct ValidateArguments {
 };
 
 ExitCode validate(const ValidateArguments& arguments) {
-  const Study study = readStudyNoting(arguments.study, arguments.quiet);
+  const Machine machine = readMachine(arguments.study, arguments.quiet);
+  const Study& study = machine.study;
   if (!arguments.quiet)
     fmt::print("{}: valid; {} with {}, {} uncertain {}, {}{}\n", printable(study.file), study.analysisName(),
                countText(static_cast<long long>(study.mechanism.elements().size()), "element"), study.uncertain.size(),
                study.uncertain.size() == 1 ? "quantity" : "quantities",
                countText(static_cast<long long>(study.outputs.size()), "output"),
-               study.horizon > 0 ? fmt::format(" at {} times", study.motion.times.size()) : "");
+               study.horizon > 0 ? fmt::format(" at {} times", study.times.size()) : "");
   return done;
 }
 

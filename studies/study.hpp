@@ -21,7 +21,7 @@
 #include "mechanics/element_types.hpp"
 #include "studies/demand.hpp"
 #include "studies/named_texts.hpp"
-#include "studies/results/results.hpp"
+#include "studies/results/origin.hpp"
 #include "studies/watch.hpp"
 
 namespace gamut {
@@ -80,6 +80,24 @@ struct Shares {
   double derivatives = 20;     ///< apart from the others; of the enclosure alone, or of a second
 };
 
+/// Where in the study's file things stand: "file:line:column".
+struct StudyPlaces {
+  /// A number of the mechanism that is a formula.
+  struct Formula {
+    std::string name, place;
+    Expression number;
+  };
+
+  std::string mechanism;
+  std::map<std::string, std::string> named;  ///< numbers, parameters and elements of the mechanism
+  std::vector<Formula> formulas;             ///< in the order of the file
+  std::vector<std::string> outputs;          ///< of each
+
+  /// Where this is given, or that of which it is: "arm" for "arm.mass".
+  const std::string& of(std::string name) const;
+};
+
+/// The words of a study. What they describe moves as a Machine.
 struct Study {
   enum class Analysis { kinematics, dynamics, inverseDynamics };
 
@@ -89,10 +107,8 @@ struct Study {
   NamedTexts tables;  ///< of the CSV files that it names, word for word, by these names
   std::string title;
   Analysis analysis = Analysis::dynamics;
-  double horizon = 0;       ///< s; 0 for kinematics
-  Motion motion;            ///< its times: the output times, s, 0 first, rising, the horizon last; its programs are
-                            ///< those of the mechanism (problem.hpp says what they take)
-  double recordingCpu = 0;  ///< s, of these programs
+  double horizon = 0;         ///< s; 0 for kinematics
+  std::vector<double> times;  ///< the output times, s, 0 first, rising, the horizon last
   std::set<std::string, std::less<>> compare{"fuzzy", "interval", "stochastic"};  ///< words of the answers asked for
   Mechanism mechanism;
   std::map<std::string, std::string, std::less<>> unitsOfMasses;  ///< as they are stated, by element; where they are
@@ -108,6 +124,7 @@ struct Study {
   int levels = 11;           ///< of alpha, from 0 to 1: levelOf(0, levels) …
   StatedLimits limits;
   Shares shares;
+  StudyPlaces places;
   std::vector<std::string> notes;  ///< what may be a mistake: lines "file:line:column: note: what"
 
   /// Whether it asks for this answer: `asksFor<IntervalResult>()`.

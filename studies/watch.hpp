@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "studies/results/results.hpp"
+#include "studies/results/origin.hpp"
 
 namespace gamut {
 

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "scalars/interval.hpp"
-#include "studies/problem.hpp"
+#include "studies/machine.hpp"
 #include "studies/study.hpp"
 #include "studies/words.hpp"
 
@@ -105,11 +105,10 @@ class Motions {
       one.outputs.push_back(outputs_[i].first);
       other.outputs.push_back(outputs_[i].second);
     }
-    recordPrograms(one);
-    recordPrograms(other);
-    relation.isSameMotion = isIdentical(one.motion.f, other.motion.f);
+    const Motion motion = recordedMotion(one), otherMotion = recordedMotion(other);
+    relation.isSameMotion = isIdentical(motion.f, otherMotion.f);
     if (!relation.isSameMotion) return;
-    if (isIdentical(one.motion.g, other.motion.g)) {
+    if (isIdentical(motion.g, otherMotion.g)) {
       std::fill(relation.isSameOutput.begin() + static_cast<std::ptrdiff_t>(begin),
                 relation.isSameOutput.begin() + static_cast<std::ptrdiff_t>(end), 1);
     } else if (end - begin > 1) {

@@ -83,7 +83,7 @@ class RequirementReader {
                      fmt::format("a time from 0 s to {} s", study_.horizon));
       (std::string_view(key) == "from" ? demand.from : demand.until) = time;
       // What is known at an output time is known exactly there.
-      std::vector<double>& times = study_.motion.times;
+      std::vector<double>& times = study_.times;
       const auto place = std::ranges::lower_bound(times, time);
       if (place == times.end() || *place != time) times.insert(place, time);
     }
@@ -92,7 +92,7 @@ class RequirementReader {
           section.table(),
           fmt::format("the requirement's time begins at {} s, after its end at {} s", demand.from, demand.until),
           "from before until");
-    if (study_.motion.times.size() > maxOutputTimes)
+    if (study_.times.size() > maxOutputTimes)
       source_.fail(section.table(), fmt::format("there are more than {} output times", maxOutputTimes), "fewer");
   }
 

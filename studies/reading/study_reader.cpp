@@ -15,14 +15,9 @@
 #include <unordered_set>
 #include <utility>
 
-#include "mechanics/assembly.hpp"
-#include "mechanics/description/unfit_part.hpp"
 #include "mechanics/description/written_units.hpp"
 #include "mechanics/elements/rigid_stop.hpp"
-#include "mechanics/model.hpp"
-#include "scalars/recorded.hpp"
 #include "studies/printable.hpp"
-#include "studies/problem.hpp"
 #include "studies/readable.hpp"
 #include "studies/reading/dependence_reader.hpp"
 #include "studies/reading/frequency_notes.hpp"
@@ -30,6 +25,7 @@
 #include "studies/reading/requirement_reader.hpp"
 #include "studies/reading/toml_source.hpp"
 #include "studies/reading/uncertain_reader.hpp"
+#include "studies/results/results.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
@@ -71,7 +67,8 @@ class StudyReader {
     if (const toml::node* node = file.find("sensitivity")) readSensitivity(source_.asTable(*node, "sensitivity"));
     checkInitialValues();
     checkEnds();
-    recordMotion(*file.find("mechanism"));
+    checkSomethingMoves(*file.find("mechanism"));
+    notePlaces(*file.find("mechanism"));
     if (const toml::node* node = file.find("interval")) readInterval(source_.asTable(*node, "interval"));
     if (const toml::node* node = file.find("stochastic")) readStochastic(source_.asTable(*node, "stochastic"));
     checkPlan(file.find("stochastic"));
@@ -111,7 +108,7 @@ class StudyReader {
       readTimes(section);
     } else {
       refuse(section, {"horizon", "output_step", "output_times"});
-      study_.motion.times = {0.0};
+      study_.times = {0.0};
     }
     readCompare(section);
   }
@@ -166,15 +163,15 @@ class StudyReader {
     Amount time = step;
     for (unsigned long i = 0; i <= count; ++i) {
       time.value = step.value * i;
-      study_.motion.times.push_back(nearest(time));
+      study_.times.push_back(nearest(time));
     }
-    if (study_.motion.times.back() < study_.horizon) study_.motion.times.push_back(study_.horizon);
+    if (study_.times.back() < study_.horizon) study_.times.push_back(study_.horizon);
     if (step.value > horizon.value)
       study_.notes.push_back(source_.note(
           node,
           fmt::format("study.output_step is longer than the horizon of {} s, so that outputs are those at its ends",
                       study_.horizon)));
-    if (study_.motion.times.size() > 1 && study_.motion.times[1] == 0)
+    if (study_.times.size() > 1 && study_.times[1] == 0)
       source_.fail(node, "study.output_step is too small", "a longer step");
   }
 
@@ -183,19 +180,19 @@ class StudyReader {
     if (list.empty()) source_.fail(node, "study.output_times is empty", "at least one time");
     if (list.size() > maxOutputTimes - 2)
       source_.fail(node, fmt::format("study.output_times has more than {} times", maxOutputTimes - 2), "fewer times");
-    study_.motion.times.push_back(0.0);
+    study_.times.push_back(0.0);
     for (const toml::node& entry : list) {
       const double time = nearest(source_.asAmount(entry, "study.output_times", seconds));
       const bool isStart = time == 0 && &entry == list.get(0);
-      if (!isStart && !(time > study_.motion.times.back()))
-        source_.fail(entry, fmt::format("the output time {} s does not follow {} s", time, study_.motion.times.back()),
+      if (!isStart && !(time > study_.times.back()))
+        source_.fail(entry, fmt::format("the output time {} s does not follow {} s", time, study_.times.back()),
                      "times that rise from 0 s");
       if (time > nearest(horizon))
         source_.fail(entry, fmt::format("the output time {} s is beyond the horizon", time),
                      fmt::format("at most {} s", study_.horizon));
-      if (!isStart) study_.motion.times.push_back(time);
+      if (!isStart) study_.times.push_back(time);
     }
-    if (study_.motion.times.back() < study_.horizon) study_.motion.times.push_back(study_.horizon);
+    if (study_.times.back() < study_.horizon) study_.times.push_back(study_.horizon);
   }
 
   // ---- What the whole says ------------------------------------------------------------------------------------------
@@ -237,53 +234,6 @@ class StudyReader {
                                                   : "a quantity that does not");
   }
 
-  /// Points between which a length is measured lie apart at the start, or its direction is not determined.
-  void checkLengths() const {
-    const Assembly<double> assembly(study_.mechanism);
-    for (const Described& element : study_.mechanism.elements()) {
-      const std::string length = element.name() + ".length";
-      if (study_.mechanism.isOutputQuantity(length) && assembly.output(length) == 0)
-        source_.fail(*places_.at(element.name()),
-                     fmt::format("the {} '{}' has no length at the start", element.type(), element.name()),
-                     "points that lie apart");
-    }
-  }
-
-  /// Of a number in recorded equations: the quantities that are open have these values, all others are constant.
-  Recorded valueOf(const Expression& number, const std::vector<std::string>& open,
-                   const std::vector<Recorded>& values) const {
-    return number.evaluate<Recorded>([&](const std::string& name) -> Recorded {
-      const auto found = std::ranges::find(open, name);
-      if (found != open.end()) return values[static_cast<std::size_t>(found - open.begin())];
-      const Mechanism::Derived* derived = study_.mechanism.derived().find(name);
-      return derived != nullptr ? valueOf(derived->formula, open, values)
-                                : constant<Recorded>(study_.mechanism.nominal(name));
-    });
-  }
-
-  /// Throws StudyError at the first number of the mechanism that has no value, as one that is divided by 0.
-  void refuseNumberWithoutValue() const {
-    std::vector<std::string> open = study_.mechanism.outputQuantities();
-    open.emplace_back("t");
-    for (const UncertainQuantity& uncertain : study_.uncertain) open.push_back(uncertain.quantity);
-    std::vector<std::pair<const toml::node*, std::string>> numbers;
-    for (const auto& [name, node] : places_)
-      if (node->is_string()) numbers.emplace_back(node, name);
-    std::ranges::sort(numbers, {}, [](const auto& number) {
-      const toml::source_position at = number.first->source().begin;
-      return std::pair(at.line, at.column);
-    });
-    for (const auto& [node, name] : numbers) {
-      const Expression number = source_.asExpression(*node, name, true);
-      try {
-        record(0, static_cast<int>(open.size()), 1,
-               [&](auto, const auto&, const auto& p, auto& y) { y[0] = valueOf(number, open, p); });
-      } catch (const std::domain_error& error) {
-        source_.failWith(*node, fmt::format("'{}' has no value: {}", name, error.what()), "a formula that has a value");
-      }
-    }
-  }
-
   /// That of the number, or of the parameter that stands for it.
   void noteUnitsOfMasses() {
     const auto textAt = [&](const std::string& name) -> std::string {
@@ -318,78 +268,27 @@ class StudyReader {
                  "a drive for every coordinate, or analysis = \"dynamics\", which tells what drives need as well");
   }
 
-  /// Throws StudyError if at the start a speed moves all inertia as others do together: by Cholesky's factors of the
-  /// inertia matrix. (Where a motion is not determined, this is why.)
-  void refuseJointsAlike() const {
-    constexpr double nothing = 1e-10, some = 1e-6;  // of an entry of the diagonal, and of a factor
-    const Mechanism& m = study_.mechanism;
-    if (study_.analysis != Study::Analysis::dynamics) return;
-    Assembly<double> assembly(m);
-    const auto inertia = assembly.system().inertiaMatrix();
-    const auto n = static_cast<std::size_t>(inertia.rows());
-    std::vector<std::vector<double>> factor(n, std::vector<double>(n, 0.0));
-    const auto entry = [&](std::size_t i, std::size_t j) {
-      return inertia(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    };
-    for (std::size_t j = 0; j < n; ++j) {
-      for (std::size_t i = 0; i <= j; ++i) {
-        double rest = entry(j, i);
-        for (std::size_t k = 0; k < i; ++k) rest -= factor[i][k] * factor[j][k];
-        factor[j][i] = i < j ? rest / factor[i][i] : rest;
-      }
-      if (factor[j][j] > nothing * entry(j, j)) {
-        factor[j][j] = std::sqrt(factor[j][j]);
-        continue;
-      }
-      std::vector<double> share(j);  // of each speed before it in what it moves
-      for (std::size_t i = j; i-- > 0;) {
-        share[i] = factor[j][i];
-        for (std::size_t k = i + 1; k < j; ++k) share[i] -= factor[k][i] * share[k];
-        share[i] /= factor[i][i];
-      }
-      const auto name = [&](std::size_t i) { return m.stateNames()[m.positions() + i]; };
-      std::string others;
-      for (std::size_t i = 0; i < j; ++i)
-        if (std::abs(share[i]) > some) others += fmt::format("{}'{}'", others.empty() ? "" : ", ", name(i));
-      if (others.empty()) return;
-      const Mechanism::JointCoordinate* coordinate = m.coordinateWith(name(j));
-      source_.fail(placeOf(coordinate == nullptr ? name(j) : coordinate->element),
-                   fmt::format("'{}' moves all masses as {} {}, so that the motion is not determined", name(j), others,
-                               others.find(',') == std::string::npos ? "does" : "do together"),
-                   "joints that move masses in different ways (hinges on one axis turn what is between them, which "
-                   "needs inertia)");
-    }
+  void checkSomethingMoves(const toml::node& mechanism) const {
+    if (study_.analysis == Study::Analysis::dynamics && study_.mechanism.stateNames().empty())
+      source_.fail(mechanism, "every joint is driven, so that nothing is left to move by itself",
+                   "a joint without a drive, or analysis = \"inverse-dynamics\" or \"kinematics\"");
   }
 
-  /// The equations of motion exist, or the mechanism is at fault.
-  void recordMotion(const toml::node& mechanism) {
-    if (study_.analysis == Study::Analysis::dynamics) {
-      if (study_.mechanism.stateNames().empty())
-        source_.fail(mechanism, "every joint is driven, so that nothing is left to move by itself",
-                     "a joint without a drive, or analysis = \"inverse-dynamics\" or \"kinematics\"");
+  void notePlaces(const toml::node& mechanism) {
+    StudyPlaces& places = study_.places;
+    places.mechanism = source_.placeOf(mechanism);
+    for (const toml::node* node : outputNodes_) places.outputs.push_back(source_.placeOf(*node));
+    std::vector<std::pair<const toml::node*, std::string>> formulas;
+    for (const auto& [name, node] : places_) {
+      places.named[name] = source_.placeOf(*node);
+      if (node->is_string()) formulas.emplace_back(node, name);
     }
-    checkLengths();
-    try {
-      recordPrograms(study_);
-    } catch (const UndefinedOutput& error) {
-      source_.failWith(*outputNodes_[error.output()],
-                       fmt::format("'{}' {}", study_.outputs[error.output()].quantity, error.what()),
-                       "a formula that has a value");
-    } catch (const std::domain_error& error) {
-      refuseNumberWithoutValue();
-      source_.failWith(mechanism, error.what(), "a mechanism in which all that is measured has a value");
-    } catch (const std::length_error& error) {
-      source_.failWith(
-          mechanism, error.what(),
-          "fewer joints one behind the other: what they do to each other grows with the square of their number");
-    } catch (const UnfitPart& error) {
-      source_.failWith(placeOf(error.part()), error.problem(), error.expected());
-    } catch (const std::invalid_argument& error) {
-      refuseNumberWithoutValue();
-      refuseJointsAlike();
-      source_.failWith(mechanism, error.what(),
-                       "a mass that every joint moves, and joints that move it in different ways");
-    }
+    std::ranges::sort(formulas, {}, [](const auto& formula) {
+      const toml::source_position at = formula.first->source().begin;
+      return std::pair(at.line, at.column);
+    });
+    for (const auto& [node, name] : formulas)
+      places.formulas.push_back({name, source_.placeOf(*node), source_.asExpression(*node, name, true)});
   }
 
   // ---- [[output]] ---------------------------------------------------------------------------------------------------
@@ -583,7 +482,7 @@ class StudyReader {
       if (!(time >= 0 && time <= study_.horizon))
         source_.fail(entry, fmt::format("distribution.times has {} s, outside the study's time", time),
                      fmt::format("times from 0 s to {} s", study_.horizon));
-      for (std::vector<double>* all : {&study_.motion.times, &plan.times}) {
+      for (std::vector<double>* all : {&study_.times, &plan.times}) {
         const auto place = std::ranges::lower_bound(*all, time);
         if (place == all->end() || *place != time) all->insert(place, time);
       }
@@ -679,6 +578,12 @@ class StudyReader {
 };
 
 }  // namespace
+
+const std::string& StudyPlaces::of(std::string name) const {
+  while (!named.contains(name) && name.find('.') != std::string::npos) name.resize(name.rfind('.'));
+  const auto found = named.find(name);
+  return found == named.end() ? mechanism : found->second;
+}
 
 Study readStudyText(const std::string& text, const std::string& name, const std::vector<Described>& types,
                     const std::optional<FilesAtHand>& files) {

@@ -49,6 +49,9 @@ class TomlSource {
   /// What is wrong with a formula, which says itself what was expected.
   [[noreturn]] void fail(const toml::node& at, const UnitError& error) const;
 
+  /// "file:line:column"
+  std::string placeOf(const toml::node& at) const { return placeOf(at.source().begin); }
+
   /// "file:line:column: note: text", for what is no error.
   std::string note(const toml::node& at, const std::string& text) const;
 

@@ -49,7 +49,7 @@ class Trials {
     std::string keys;
     const auto arrivesWith = [&](const char* key) {
       keys += (keys.empty() ? "" : " and ") + std::string(key);
-      const std::optional<bool> arrived = tries(run_.problem.box, options);
+      const std::optional<bool> arrived = tries(run_.machine.box, options);
       isTried = isTried || arrived.has_value();
       return arrived == true;
     };
@@ -101,17 +101,17 @@ class Trials {
     std::iota(quantities.begin(), quantities.end(), std::size_t{0});
     std::erase_if(quantities, [&](std::size_t q) { return isThin(run_.study.uncertain[q].uncertain.range); });
     std::ranges::stable_sort(quantities, std::ranges::greater{}, [&](std::size_t q) {
-      const auto slot = static_cast<std::size_t>(run_.problem.motion.slot[q]);
+      const auto slot = static_cast<std::size_t>(run_.motion.slot[q]);
       return slot < run_.enclosed.nonlinear.size() ? run_.enclosed.nonlinear[slot] : 0.0;
     });
     return quantities;
   }
 
   bool arrives(const std::vector<std::size_t>& quantities, double factor) {
-    Box box = run_.problem.box;
+    Box box = run_.machine.box;
     for (const std::size_t q : quantities) {
       const Uncertain& u = run_.study.uncertain[q].uncertain;
-      box[static_cast<std::size_t>(run_.problem.motion.slot[q])] =
+      box[static_cast<std::size_t>(run_.motion.slot[q])] =
           Interval(u.nominal) + Interval(factor) * (u.range - Interval(u.nominal));
     }
     return tries(box, options_) == true;
@@ -122,7 +122,7 @@ class Trials {
     const double work = 0.5 * left_;
     if (!(left_ > least) || *run_.watch.stop()) return std::nullopt;
     options.budget = work / Work::perSecond;
-    const Motion& motion = run_.study.motion;
+    const Motion& motion = run_.machine.equations;
     const std::uint64_t began = Work::counted();
     const Tube tube = Flow(motion.f, motion.g, std::move(options)).enclose(box, run_.study.horizon, motion.times);
     left_ -= static_cast<double>(Work::counted() - began);

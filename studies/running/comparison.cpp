@@ -47,7 +47,7 @@ void compareAnswers(Run& run) {
   comparison.present = true;
   const std::size_t sampled = run.ensemble && run.ensemble->integrated() > 0 ? run.ensemble->reachedTimes() : 0;
   const std::size_t compared = std::min(run.enclosed.reachedTimes, sampled);
-  const bool isOfTheStartAlone = study.motion.times.size() > 1 && compared <= 1;
+  const bool isOfTheStartAlone = study.times.size() > 1 && compared <= 1;
   if (study.asksFor<IntervalResult>() && sampled > 0 && !isOfTheStartAlone) {
     Overestimation found = measureOverestimation({results.interval.at, run.enclosed.reachedTimes},
                                                  results.stochastic.envelope, results.stochastic.error, floorsOf(run));

@@ -16,11 +16,11 @@ namespace {
 void describe(const Study& study, const DerivativeFlow& flow, const std::vector<std::size_t>& quantities,
               const Tube& tube, DerivativeResult& result) {
   constexpr std::size_t most = 64;
-  const std::size_t last = study.motion.times.size() - 1, count = std::min(last, most);
+  const std::size_t last = study.times.size() - 1, count = std::min(last, most);
   for (std::size_t i = 0; i <= count; ++i) {
     const std::size_t row = i * last / count;
     if (row >= tube.reachedTimes()) break;
-    result.time.push_back(study.motion.times[row]);
+    result.time.push_back(study.times[row]);
     const std::vector<Interval>& values = tube.outputs(row);
     for (std::size_t output = 0; output < study.outputs.size(); ++output)
       for (std::size_t q = 0; q < study.uncertain.size(); ++q) {
@@ -45,18 +45,17 @@ void encloseDerivatives(Run& run) {
   result.present = true;
   std::vector<std::size_t> quantities;
   std::vector<int> by;
-  for (std::size_t q = 0; q < run.study.uncertain.size(); ++q)
-    if (!run.study.uncertain[q].varies) {
-      quantities.push_back(q);
-      by.push_back(run.problem.motion.slot[q]);
-    }
-  FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
+  for (const auto [number, slot] : run.machine.constants) {
+    quantities.push_back(number);
+    by.push_back(slot);
+  }
+  FlowOptions options = flowOptions(run.machine, run.options.jobs, run.watch.stop());
   options.progress = run.progressOf("derivatives");
   options.budget = run.study.shares.derivatives * std::max(run.spent.enclosure / Work::perSecond, 1.0);
   try {
     if (!(options.budget > 0)) throw std::invalid_argument("limits.derivatives leaves them nothing");
-    const DerivativeFlow flow(run.study.motion.f, run.study.motion.g, by, std::move(options));
-    const Tube tube = flow.enclose(run.problem.box, run.study.horizon, run.study.motion.times);
+    const DerivativeFlow flow(run.machine.equations.f, run.machine.equations.g, by, std::move(options));
+    const Tube tube = flow.enclose(run.machine.box, run.study.horizon, run.study.times);
     result.reached = tube.reached();
     if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();
     result.why = tube.why() == Tube::overBudget ? "the work that limits.derivatives allows is done"

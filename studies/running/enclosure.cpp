@@ -37,10 +37,10 @@ void encloseMotion(Run& run) {
   const bool areAlone = run.study.requirements.empty() && !asksForDistributions(run.study);  // no other answers follow
   flow.levelShare = shares.cuts + (areAlone ? shares.requirements + shares.probabilities : 0);
   flow.levelBudget = flow.levelShare * std::max(run.spent.samples / Work::perSecond, Shares::least);
-  const Motion& motion = run.study.motion;  // of the samples', what varies in time has a course
-  const Tube tube = Flow(motion.f, motion.g, flow)
-                        .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);
-  if (tube.times() != run.study.motion.times) throw std::logic_error("the flow's output times are not the study's");
+  const Motion& motion = run.machine.equations;  // of the samples', what varies in time has a course
+  const Tube tube =
+      Flow(motion.f, motion.g, flow).enclose(run.machine.box, run.study.horizon, run.study.times, run.machine.levels);
+  if (tube.times() != run.study.times) throw std::logic_error("the flow's output times are not the study's");
   Enclosed& enclosed = run.enclosed;
   enclosed.reachedTimes = tube.reachedTimes();
   enclosed.over = run.emptyBounds();
@@ -77,10 +77,10 @@ void encloseMotion(Run& run) {
 /// may have no value, of which those say nothing. What ends early leaves the former.
 void encloseConfiguration(Run& run) {
   Enclosed& enclosed = run.enclosed;
-  const std::vector<Interval> direct = assembledOutputs(run.study, run.problem, run.problem.box);
+  const std::vector<Interval> direct = assembledOutputs(run.machine, run.machine.box);
   std::vector<int> modelled = marginOutputs(run.study);
   std::ranges::copy(plainOutputs(run.study), std::back_inserter(modelled));
-  const Image found = findImage(run.problem.motion.motion.g, 0.0, run.problem.box, run.problem.levels, modelled,
+  const Image found = findImage(run.motion.motion.g, 0.0, run.machine.box, run.machine.levels, modelled,
                                 run.study.flow.degree, run.watch.stop());
   const auto& images = found.ranges;
   std::vector<Interval> enclosure = direct;
@@ -105,7 +105,7 @@ void encloseConfiguration(Run& run) {
 void clear(Run& run) {
   run.enclosed = {};
   run.enclosed.at = run.emptyBounds();
-  run.enclosed.cuts.assign(run.problem.levels.size(), run.emptyBounds());
+  run.enclosed.cuts.assign(run.machine.levels.size(), run.emptyBounds());
   Places& places = run.results.machine.places;
   places.lower = places.upper = places.sag = {};
 }
@@ -113,7 +113,7 @@ void clear(Run& run) {
 }  // namespace
 
 FlowOptions enclosureOptions(const Run& run) {
-  FlowOptions flow = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
+  FlowOptions flow = flowOptions(run.machine, run.options.jobs, run.watch.stop());
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   flow.floors = floorsOf(run);
   for (const OutputInfo& output : run.study.outputs)

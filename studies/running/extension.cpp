@@ -27,7 +27,7 @@ Sampling samplingOf(const Study& study, const Results& results, std::size_t samp
 
 /// The text of the study may have another meaning for another version.
 void checkStudy(const Study& study, const Results& results) {
-  bool isSame = results.time == study.motion.times && results.outputs.size() == study.outputs.size() &&
+  bool isSame = results.time == study.times && results.outputs.size() == study.outputs.size() &&
                 results.uncertain.size() == study.uncertain.size() &&
                 results.stochastic.plan == nameOf(study.ensemble.plan);
   for (std::size_t i = 0; isSame && i < study.outputs.size(); ++i)
@@ -120,16 +120,17 @@ void noteExtension(Run& run, std::int64_t before) {
 
 }  // namespace
 
-Extension extend(const Study& study, const Results& results, const RunOptions& options) {
+Extension extend(const Machine& machine, const Results& results, const RunOptions& options) {
+  const Study& study = machine.study;
   const std::size_t samples = checkedSamples(study, results, options);
   checkValues(study, results, samplingOf(study, results, samples));
-  Run run(study, options, results);
+  Run run(machine, options, results);
   noteExtension(run, results.stochastic.samples);
   run.former.emplace(results, samples);
-  takeSwitching(run.problem, results);
+  run.motion = withSwitchingOf(results, std::move(run.motion));
   run.enclosed.reachedTimes = enclosedTimes(results);
   run.suspects.resize(study.requirements.size());
-  run.worstMargins.assign(study.requirements.size(), FirstOrder(run.problem.motion.uncertain));
+  run.worstMargins.assign(study.requirements.size(), FirstOrder(run.motion.uncertain));
   forgetSamples(run.results, samples);
   for (const auto& unit : unitsOfSamples) unit(run);
   run.results.extensions.back().cpu = run.watch.spent();

@@ -5,7 +5,6 @@
 
 #include "studies/results/results.hpp"
 #include "studies/running/run.hpp"
-#include "studies/study.hpp"
 
 namespace gamut {
 
@@ -17,9 +16,9 @@ struct Extension {
 
 /// The results with `options.samples` samples in all, the former among them, by plan, seed and number. Statistics need
 /// every sample, so these are integrated again too. Limits are those of the extension alone; seeds and time of a sample
-/// those of the results. `study` is that of the results. Throws std::invalid_argument, saying why, where results hold
+/// those of the results. `machine` is that of the results. Throws std::invalid_argument, saying why, where results hold
 /// no samples or as many already, by plans that put the first of more samples elsewhere, and for samples that would be
 /// others: another version has read the study otherwise, or moves it so.
-Extension extend(const Study& study, const Results& results, const RunOptions& options);
+Extension extend(const Machine& machine, const Results& results, const RunOptions& options);
 
 }  // namespace gamut

@@ -32,7 +32,7 @@ std::vector<Candidate> candidatesOf(const Run& run) {
   const Envelope sampled = run.ensemble->cornerEnvelope();
   const std::vector<int> outputs = plainOutputs(run.study);
   std::vector<double> widest(run.study.outputs.size(), 0.0);
-  for (std::size_t row = 0; row < run.study.motion.times.size(); ++row)
+  for (std::size_t row = 0; row < run.study.times.size(); ++row)
     for (std::size_t o = 0; o < widest.size(); ++o) widest[o] = std::fmax(widest[o], widthAt(sampled, row, o));
   std::vector<Candidate> candidates;
   const auto add = [&](double missing, double width, double value, const std::vector<double>& values) {
@@ -58,7 +58,7 @@ std::vector<std::size_t> rowsOfExtremes(const Study& study) {
   constexpr std::size_t mostCandidates = 8192;
   std::vector<std::size_t> rows;
   if (!study.asksFor<StochasticResult>() || study.uncertain.empty()) return rows;
-  const std::size_t times = study.motion.times.size(), both = 2 * std::max<std::size_t>(study.outputs.size(), 1),
+  const std::size_t times = study.times.size(), both = 2 * std::max<std::size_t>(study.outputs.size(), 1),
                     every = std::max<std::size_t>(1, (times * both + mostCandidates - 1) / mostCandidates);
   for (std::size_t row = (times - 1) % every; row < times; row += every) rows.push_back(row);  // the last among them
   return rows;
@@ -67,7 +67,7 @@ std::vector<std::size_t> rowsOfExtremes(const Study& study) {
 std::vector<std::vector<double>> extremePoints(const Run& run) {
   constexpr double alike = 0.05;  // of half the ranges: of what turns there little is lost
   constexpr std::size_t most = 256;
-  const UncertainMotion& motion = run.problem.motion;
+  const UncertainMotion& motion = run.motion;
   std::vector<std::vector<double>> points;
   for (const Candidate& candidate : candidatesOf(run)) {
     if (points.size() == most) break;

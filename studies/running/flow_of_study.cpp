@@ -14,8 +14,7 @@ namespace {
 double longestStepOf(const Study& study) {
   constexpr double parts = 64;  // of the horizon, at least
   double longest = 0;
-  for (std::size_t i = 1; i < study.motion.times.size(); ++i)
-    longest = std::max(longest, study.motion.times[i] - study.motion.times[i - 1]);
+  for (std::size_t i = 1; i < study.times.size(); ++i) longest = std::max(longest, study.times[i] - study.times[i - 1]);
   return std::min(longest, study.horizon / parts);
 }
 
@@ -32,7 +31,8 @@ Program programOf(const Program& g, const std::vector<int>& outputs, std::vector
 
 }  // namespace
 
-FlowOptions flowOptions(const Study& study, const Problem& problem, int jobs, const std::atomic<bool>* cancelled) {
+FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool>* cancelled) {
+  const Study& study = machine.study;
   FlowOptions flow = study.flow;
   flow.jobs = jobs;
   flow.cancelled = cancelled;
@@ -41,8 +41,8 @@ FlowOptions flowOptions(const Study& study, const Problem& problem, int jobs, co
     flow.stateNames = {"rest"};
     flow.longestStep = longestStepOf(study);
   }
-  flow.varying = problem.varying;
-  flow.rests = study.motion.rests;
+  flow.varying = machine.varying;
+  flow.rests = machine.equations.rests;
   flow.dropsUnneeded = true;
   return flow;
 }
@@ -72,7 +72,7 @@ std::size_t rowOf(const std::vector<double>& times, double time) {
 }
 
 CellQuestion questionOf(const Study& study, const Requirement& requirement, std::size_t rows) {
-  return questionOf(study, requirement, study.motion.times, rows);
+  return questionOf(study, requirement, study.times, rows);
 }
 
 CellQuestion questionOf(const Study& study, const Requirement& requirement, const std::vector<double>& times,
@@ -89,8 +89,8 @@ CellQuestion questionOf(const Study& study, const Requirement& requirement, cons
   return question;
 }
 
-Tube modelMargins(const Study& study, FlowOptions options, const Box& box) {
-  return modelMarginsOf(study, study.motion, std::move(options), box, study.motion.times);
+Tube modelMargins(const Machine& machine, FlowOptions options, const Box& box) {
+  return modelMarginsOf(machine.study, machine.equations, std::move(options), box, machine.study.times);
 }
 
 Tube modelMarginsOf(const Study& study, const Motion& motion, FlowOptions options, const Box& box,
@@ -99,14 +99,15 @@ Tube modelMarginsOf(const Study& study, const Motion& motion, FlowOptions option
   return Flow(motion.f, std::move(g), std::move(options)).enclose(box, study.horizon, times);
 }
 
-Tube modelAll(const Study& study, FlowOptions options, const Box& box) {
+Tube modelAll(const Machine& machine, FlowOptions options, const Box& box) {
+  const Study& study = machine.study;
   std::vector<int> all = marginOutputs(study);
   const std::size_t margins = all.size();
   std::ranges::copy(plainOutputs(study), std::back_inserter(all));
-  Program g = programOf(study.motion.g, all, options.modelled);
+  Program g = programOf(machine.equations.g, all, options.modelled);
   options.modelledAt.assign(options.modelled.begin() + static_cast<std::ptrdiff_t>(margins), options.modelled.end());
   options.modelled.resize(margins);
-  return Flow(study.motion.f, std::move(g), std::move(options)).enclose(box, study.horizon, study.motion.times);
+  return Flow(machine.equations.f, std::move(g), std::move(options)).enclose(box, study.horizon, study.times);
 }
 
 }  // namespace gamut

@@ -7,13 +7,12 @@
 
 #include "analyses/flow/flow.hpp"
 #include "analyses/requirements/cells.hpp"
-#include "studies/problem.hpp"
-#include "studies/study.hpp"
+#include "studies/machine.hpp"
 
 namespace gamut {
 
 /// Without progress and names of outputs.
-FlowOptions flowOptions(const Study& study, const Problem& problem, int jobs, const std::atomic<bool>* cancelled);
+FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool>* cancelled);
 
 /// Outputs of the study that are margins, one behind the other.
 std::vector<int> marginOutputs(const Study& study);
@@ -31,12 +30,12 @@ CellQuestion questionOf(const Study& study, const Requirement& requirement, std:
 CellQuestion questionOf(const Study& study, const Requirement& requirement, const std::vector<double>& times,
                         std::size_t rows);
 
-/// A flow whose outputs are the margins alone, with models of them, over a box like that of the study's problem; or
+/// A flow whose outputs are the margins alone, with models of them, over a box like the machine's; or
 /// the margins, and then all others with models at output times.
-Tube modelMargins(const Study& study, FlowOptions options, const Box& box);
+Tube modelMargins(const Machine& machine, FlowOptions options, const Box& box);
 /// By programs of the same states and parameters as the study's, at these times.
 Tube modelMarginsOf(const Study& study, const Motion& motion, FlowOptions options, const Box& box,
                     const std::vector<double>& times);
-Tube modelAll(const Study& study, FlowOptions options, const Box& box);
+Tube modelAll(const Machine& machine, FlowOptions options, const Box& box);
 
 }  // namespace gamut

@@ -10,12 +10,12 @@
 namespace gamut {
 namespace {
 
-/// The numbers of the problem, each uncertain one as the stack of its cuts.
-std::vector<Fuzzy> fuzzyNumbers(const Problem& problem) {
-  std::vector<Fuzzy> numbers(problem.box.begin(), problem.box.end());
-  for (const int slot : problem.motion.slot) {
+/// The machine's numbers, each uncertain one as the stack of its cuts.
+std::vector<Fuzzy> fuzzyNumbers(const Machine& machine) {
+  std::vector<Fuzzy> numbers(machine.box.begin(), machine.box.end());
+  for (const int slot : machine.motion.slot) {
     std::vector<Interval> cuts;
-    for (const Box& level : problem.levels) cuts.push_back(level[static_cast<std::size_t>(slot)]);
+    for (const Box& level : machine.levels) cuts.push_back(level[static_cast<std::size_t>(slot)]);
     numbers[static_cast<std::size_t>(slot)] = Fuzzy(std::move(cuts));
   }
   return numbers;
@@ -41,13 +41,13 @@ void findPossibilities(Run& run) {
   Enclosed& enclosed = run.enclosed;
   FuzzyResult& fuzzy = run.results.fuzzy;
   fuzzy.present = true;
-  fuzzy.alpha = run.problem.alpha;
+  fuzzy.alpha = run.machine.alpha;
   fuzzy.outer = std::move(enclosed.cuts);
   fuzzy.reached = enclosed.reached;
   fuzzy.why = enclosed.why;
   if (run.study.analysis == Study::Analysis::kinematics && enclosed.reachedTimes > 0) {
     try {
-      narrow(fuzzy.outer, assembledOutputs(run.study, run.problem, fuzzyNumbers(run.problem)));
+      narrow(fuzzy.outer, assembledOutputs(run.machine, fuzzyNumbers(run.machine)));
     } catch (const std::bad_alloc&) {
       run.watch.memoryFailed();
       fuzzy.why = run.watch.why();

@@ -19,10 +19,10 @@ const JointMasses& jointMasses(Run& run, int symbols, const std::vector<FlowSymb
   if (run.masses && run.masses->symbols() == symbols && std::ranges::equal(run.symbols, quantities, isSame))
     return *run.masses;
   std::vector<const Uncertain*> uncertain;
-  std::vector<std::size_t> place;  // among these
-  for (const UncertainQuantity& quantity : run.study.uncertain) {
-    place.push_back(uncertain.size());
-    if (!quantity.varies) uncertain.push_back(&quantity.uncertain);
+  std::vector<std::size_t> place(run.study.uncertain.size());  // among these
+  for (const auto [number, slot] : run.machine.constants) {
+    place[number] = uncertain.size();
+    uncertain.push_back(&run.study.uncertain[number].uncertain);
   }
   QuantityDependence dependence = run.study.dependence;
   for (GaussianCopula& copula : dependence.copulas) copula.renumber(place);

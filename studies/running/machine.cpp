@@ -40,10 +40,10 @@ class Follower {
  public:
   explicit Follower(Run& run)
       : run_(run),
-        motion_(run.problem.motion.motion),
+        motion_(run.motion.motion),
         tolerance_(run.study.ensemble.tolerance),
         seconds_(run.results.limits.sampleTime) {
-    motion_.g = alongCourses(run.problem, run.seen.drawn);
+    motion_.g = run.machine.alongCourses(run.seen.drawn);
     motion_.times = run.seen.at;
     witness_.emplace(motion_, run.study.ensemble.method, run.watch.stop());
   }
@@ -133,8 +133,8 @@ class Sags {
   Sags(const Run& run, const Tube& tube)
       : run_(run),
         tube_(tube),
-        parameters_(run.problem.box.begin() + static_cast<std::ptrdiff_t>(run.problem.states), run.problem.box.end()),
-        jumps_(mayJump(run.seen.positions, run.problem.varying)),
+        parameters_(run.machine.box.begin() + static_cast<std::ptrdiff_t>(run.machine.states), run.machine.box.end()),
+        jumps_(mayJump(run.seen.positions, run.machine.varying)),
         values_(jumps_ ? run.seen.positions : run.seen.velocities, parameters_) {}
 
   /// Between output times i < j. A path that goes at speeds between l and u leaves the chord, of slope m, by no more
@@ -188,12 +188,12 @@ void makeRoom(const Run& run, Places& places) {
 
 void lookAtMachine(Run& run) try {
   run.watch.begin(Watch::Stage::firstSamples);
-  run.seen = whatIsSeen(run.study, run.problem);
+  run.seen = whatIsSeen(run.machine);
   if (run.seen.empty()) return;
   describeParts(run);
   Places& places = run.results.machine.places;
   places.time = run.seen.at;
-  const Table nominal = Follower(run).follow(run.problem.motion.nominal);
+  const Table nominal = Follower(run).follow(run.motion.nominal);
   const std::size_t coordinates = 3 * run.seen.skeleton.points.size();
   append(places.nominal, nominal, 0, coordinates);
   append(places.axes, nominal, coordinates, nominal.outputs);
@@ -221,8 +221,8 @@ void enclosePlaces(Run& run) {
   if (!run.seen.isEnclosed) return;
   Places& places = run.results.machine.places;
   const auto images =
-      encloseImage(run.seen.positions, 0.0, run.problem.box, {}, run.study.flow.degree, run.watch.stop());
-  std::vector<Interval> bounds = BoxValues(run.seen.positions, run.problem.box).over(Interval(0.0), {});
+      encloseImage(run.seen.positions, 0.0, run.machine.box, {}, run.study.flow.degree, run.watch.stop());
+  std::vector<Interval> bounds = BoxValues(run.seen.positions, run.machine.box).over(Interval(0.0), {});
   for (std::size_t k = 0; k < bounds.size() && !images.empty(); ++k)
     bounds[k] = intersection(bounds[k], images.front()[k]);
   makeRoom(run, places);
@@ -240,11 +240,11 @@ void showSamples(Run& run) try {
   if (!run.study.asksFor<StochasticResult>() || *run.watch.stop()) return;
   run.watch.begin(Watch::Stage::rest);
   const EnsembleOptions options =
-      ensembleOptions(run.study, run.problem, run.results, run.options.samples.value_or(run.study.ensemble.samples));
+      ensembleOptions(run.machine, run.results, run.options.samples.value_or(run.study.ensemble.samples));
   Sampling sampling(options.plan, run.study.uncertain.size(), options.samples, options.seed);
-  sampling.correlate(run.problem.motion.dependence.copulas);
+  sampling.correlate(run.motion.dependence.copulas);
   Follower follower(run);
-  const UncertainMotion& motion = run.problem.motion;
+  const UncertainMotion& motion = run.motion;
   for (const std::size_t number : shownSamples(sampling, options.plan)) {
     const Table sample = follower.follow(motion.start(sampling.values(number, motion.uncertain)));
     machine.places.sample.push_back(static_cast<std::int64_t>(number));

@@ -44,14 +44,14 @@ bool tightenModels(Run& run, double tightness, double work, double longestStep, 
   constexpr double hardly = 0.5;  // of the enclosure's: a tighter flow takes more
   run.spent.isAll = !(work > hardly * run.spent.enclosure);
   if (run.spent.isAll) return false;
-  FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
+  FlowOptions options = flowOptions(run.machine, run.options.jobs, run.watch.stop());
   options.tightness = tightness;
   options.longestStep = std::min(options.longestStep, longestStep);
   options.budget = work / Work::perSecond;
   options.progress = run.progressOf(task);
   boundModels(run, options);
   const bool all = asksForDistributions(run.study);
-  const Tube tube = (all ? modelAll : modelMargins)(run.study, std::move(options), run.problem.box);
+  const Tube tube = (all ? modelAll : modelMargins)(run.machine, std::move(options), run.machine.box);
   run.spent.isAll = tube.why() == Tube::overBudget;
   const std::shared_ptr<const FlowModels>& models = tube.models();
   if (!models || models->at.size() < run.enclosed.models->at.size() || models->modelled < run.enclosed.models->modelled)

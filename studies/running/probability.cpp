@@ -32,11 +32,10 @@ class Probabilities {
         rows_(distributionRows(run.study)),
         outputs_(plainOutputs(run.study)),
         count_(run.study.outputs.size()) {
-    for (std::size_t q = 0; q < run.study.uncertain.size(); ++q) {
-      if (run.study.uncertain[q].varies) continue;
-      quantities_.push_back(q);
-      components_.push_back(run.problem.motion.slot[q]);
-      uncertain_.push_back(&run.study.uncertain[q].uncertain);
+    for (const auto [number, slot] : run.machine.constants) {
+      quantities_.push_back(number);
+      components_.push_back(slot);
+      uncertain_.push_back(&run.study.uncertain[number].uncertain);
     }
     found_.resize(rows_.size() * outputs_.size());
     tried_.resize(found_.size());
@@ -61,7 +60,7 @@ class Probabilities {
     result.wanted = run_.study.distribution.gap;
     std::size_t most = 0;
     for (const DistributionBounds& bounds : found_) most = std::max(most, bounds.value.size());
-    for (const std::size_t row : rows_) result.time.push_back(run_.study.motion.times[row]);
+    for (const std::size_t row : rows_) result.time.push_back(run_.study.times[row]);
     for (std::size_t i = 0; i < most; ++i) result.point.push_back(static_cast<double>(i));
     for (std::vector<double>* numbers : {&result.value, &result.lower, &result.upper})
       numbers->assign(rows_.size() * count_ * most, unknown);
@@ -288,7 +287,7 @@ class Probabilities {
       times.push_back(decisiveTime(run_.results, requirement));
     for (const int output : outputs_) times.push_back(widestTime(run_.results, static_cast<std::size_t>(output)));
     std::vector<std::size_t> rows;
-    const std::vector<double>& all = run_.study.motion.times;
+    const std::vector<double>& all = run_.study.times;
     for (const double time : times)
       if (!std::isnan(time) && rows.size() < most) rows.push_back(std::min(rowOf(all, time), all.size() - 1));
     return rows;
@@ -301,7 +300,7 @@ class Probabilities {
     const std::vector<std::size_t> rows = rowsOfIndices();
     if (rows.empty()) return;  // the enclosure ended at once
     result.present = true;
-    for (const std::size_t row : rows) result.time.push_back(run_.study.motion.times[row]);
+    for (const std::size_t row : rows) result.time.push_back(run_.study.times[row]);
     for (auto* numbers : {&result.meanLower, &result.meanUpper, &result.deviationLower, &result.deviationUpper})
       numbers->assign(rows.size() * count_, unknown);
     for (auto* numbers : {&result.firstLower, &result.firstUpper, &result.totalLower, &result.totalUpper,
@@ -410,8 +409,7 @@ class Probabilities {
     if (*run_.watch.stop()) return run_.watch.why();
     if (!run_.enclosed.models) return run_.enclosed.why.empty() ? "models of outputs found no room" : run_.enclosed.why;
     if (surrogate_.rows.empty()) return "models of outputs found no room";
-    if (run_.study.motion.times[surrogate_.rows.back()] < run_.results.distribution.time.back())
-      return run_.enclosed.why;
+    if (run_.study.times[surrogate_.rows.back()] < run_.results.distribution.time.back()) return run_.enclosed.why;
     if (isLimited_) return "the work that limits.probabilities allows is done";
     const bool isOne = run_.study.dependence.unknown.empty() &&
                        std::ranges::all_of(uncertain_, [](const Uncertain* u) { return u->distribution.isPrecise(); });
@@ -446,7 +444,7 @@ class Probabilities {
 }  // namespace
 
 std::vector<std::size_t> distributionRows(const Study& study) {
-  const std::vector<double>& times = study.motion.times;
+  const std::vector<double>& times = study.times;
   std::vector<std::size_t> rows;
   for (const double time : study.distribution.times) rows.push_back(rowOf(times, time));
   if (!rows.empty()) return rows;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analyses/table.hpp"
+#include "studies/machine.hpp"
 #include "studies/results/results.hpp"
-#include "studies/study.hpp"
 
 namespace gamut {
 
@@ -22,14 +22,14 @@ struct ReplayedSample {
 };
 
 /// Sample `number`, from 0: the plan's samples, then the corners, those of the alpha-cuts, the centre, the points
-/// inside the cuts. `study` is what results.studyText says. Limits and threads of the run play no part: a sample that a
+/// inside the cuts. `machine` is that of results.studyText. Limits and threads of the run play no part: a sample that a
 /// limit of time ended comes to its end here. One that seemed to leave what is proved is settled as in the run. Throws
 /// std::invalid_argument for results without samples and for a number that no sample has.
-ReplayedSample replay(const Study& study, const Results& results, std::size_t number);
+ReplayedSample replay(const Machine& machine, const Results& results, std::size_t number);
 
 /// A motion that violates a requirement: of the values for which that is proved, or of the sample that violates it in
 /// simulation. What varies in time keeps to the course of its nominal value where any will do. Throws
 /// std::invalid_argument where no such motion is known.
-ReplayedSample replayViolation(const Study& study, const Results& results, const RequirementResult& requirement);
+ReplayedSample replayViolation(const Machine& machine, const Results& results, const RequirementResult& requirement);
 
 }  // namespace gamut

@@ -84,12 +84,12 @@ void sampleIndependently(Run& run, const std::vector<std::size_t>& requirements)
   options.seed ^= 0x9e3779b97f4a7c15;  // others than those of the plan
   options.progress = {};
   options.cancelled = run.watch.stop();
-  integrateIndependent(run.problem.motion, options, [&](const SampleBlock& block) {
+  integrateIndependent(run.motion, options, [&](const SampleBlock& block) {
     for (const std::size_t r : requirements) {
       const Requirement& requirement = run.study.requirements[r];
       RequirementEstimate& estimate = run.results.requirements[r].estimate;
-      const std::size_t from = rowOf(run.study.motion.times, requirement.demand.from),
-                        until = rowOf(run.study.motion.times, requirement.demand.until);
+      const std::size_t from = rowOf(run.study.times, requirement.demand.from),
+                        until = rowOf(run.study.times, requirement.demand.until);
       for (std::size_t i = 0; i < block.size(); ++i) {
         ++estimate.samples;
         if (std::isnan(block(i, until, requirement.firstMargin))) continue;  // it did not arrive
@@ -111,8 +111,8 @@ void noteRequirements(Run& run, const SampleBlock& block) {
   for (std::size_t r = 0; r < run.study.requirements.size(); ++r) {
     const Requirement& requirement = run.study.requirements[r];
     RequirementResult& result = run.results.requirements[r];
-    const std::size_t from = rowOf(run.study.motion.times, requirement.demand.from),
-                      until = rowOf(run.study.motion.times, requirement.demand.until);
+    const std::size_t from = rowOf(run.study.times, requirement.demand.from),
+                      until = rowOf(run.study.times, requirement.demand.until);
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (std::isnan(block(i, until, requirement.firstMargin))) continue;  // it did not arrive
       const bool violates = !isMetThroughout(block, i, from, until, requirement);
@@ -131,7 +131,7 @@ void noteRequirements(Run& run, const SampleBlock& block) {
       if (!isWorst) continue;
       result.worstSample = sample;
       result.worstMargin = worst.value;
-      result.worstTime = run.study.motion.times[worst.row];
+      result.worstTime = run.study.times[worst.row];
     }
   }
 }
@@ -141,8 +141,7 @@ void estimateRequirements(Run& run) {
   if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return;
   std::vector<std::size_t> open;
   for (std::size_t r = 0; r < run.study.requirements.size(); ++r)
-    if (rowOf(run.study.motion.times, run.study.requirements[r].demand.until) >= run.enclosed.reachedTimes)
-      open.push_back(r);
+    if (rowOf(run.study.times, run.study.requirements[r].demand.until) >= run.enclosed.reachedTimes) open.push_back(r);
   if (open.empty() || run.study.horizon == 0) return;
   const double start = processCpuSeconds();
   const Spending spending(run.spent.samples);
@@ -166,7 +165,7 @@ void estimateRequirements(Run& run) {
     atZero.push_back(std::ranges::none_of(requirement.demand.terms, &DemandTerm::isStrict) ? 1 : 0);
   }
   const std::vector<double> shares =
-      sharesAboveZero(coefficients, atZero, run.problem.motion.uncertain, run.study.dependence, run.results.seed);
+      sharesAboveZero(coefficients, atZero, run.motion.uncertain, run.study.dependence, run.results.seed);
   for (std::size_t i = 0; i < open.size(); ++i) run.results.requirements[open[i]].estimate.firstOrder = shares[i];
   run.results.stochastic.cpu += processCpuSeconds() - start;
 }

@@ -65,12 +65,12 @@ void examineModels(Run& run, const FlowModels& models, std::size_t number, doubl
   const Spending spending(run.spent.requirements);
   const Study& study = run.study;
   const Requirement& requirement = study.requirements[number];
-  const CellQuestion whole = questionOf(study, requirement, study.motion.times.size());
+  const CellQuestion whole = questionOf(study, requirement, study.times.size());
   if (models.at.size() <= whole.from) return;
   const CellQuestion question = questionOf(study, requirement, models.at.size());
   std::vector<CellQuantity> quantities;
-  for (std::size_t q = 0; q < study.uncertain.size(); ++q)
-    if (!study.uncertain[q].varies) quantities.push_back({run.problem.motion.slot[q], &study.uncertain[q].uncertain});
+  for (const ConstantQuantity& of : run.machine.constants)
+    quantities.push_back({of.slot, &study.uncertain[of.number].uncertain});
   RequirementOptions options;
   std::vector<FlowSymbol> symbols;
   for (const CellQuantity& quantity : quantities)
@@ -85,8 +85,8 @@ void examineModels(Run& run, const FlowModels& models, std::size_t number, doubl
   for (const std::vector<double>& values : {finding.violating, finding.doubtful}) {
     if (values.empty()) continue;
     std::vector<double>& all = suspects.emplace_back().values;
-    for (std::size_t q = 0, next = 0; q < study.uncertain.size(); ++q)
-      all.push_back(study.uncertain[q].varies ? RequirementResult::unknown : values[next++]);
+    all.assign(study.uncertain.size(), RequirementResult::unknown);
+    for (std::size_t i = 0; i < values.size(); ++i) all[run.machine.constants[i].number] = values[i];
   }
   if (finding.violating.empty()) return;  // else the models prove it; a flow of its own will tell when and by how much
   if (result.word == Decision::open) result.word = Decision::partly;
@@ -104,7 +104,7 @@ const Reason exactly{"its limit is met exactly, as far as can be told: rounded n
 Reason ofMargin(const Run& run, const Requirement& requirement) {
   const Reason loose{"the enclosure is not tight enough to tell",
                      fmt::format("interval.tightness = {:.6g}", 1 + (run.study.flow.tightness - 1) / 4)};
-  const std::vector<double>& times = run.study.motion.times;
+  const std::vector<double>& times = run.study.times;
   const IntervalResult& interval = run.results.interval;
   if (!requirement.demand.isAlways || interval.at.empty()) return loose;
   struct Least {
@@ -139,7 +139,7 @@ Reason whyOpen(const Run& run, std::size_t number, const std::string& unsettled)
   const RequirementResult& result = run.results.requirements[number];
   const bool isEnclosureShort =
       !run.enclosed.why.empty() &&
-      (!run.enclosed.models || run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until);
+      (!run.enclosed.models || run.study.times[run.enclosed.models->at.size() - 1] < result.until);
   if (isEnclosureShort && result.word == Decision::open &&
       !result.isViolatedInSimulation)  // whatever came to an end later
     return {run.enclosed.why, run.enclosed.advice};
@@ -188,7 +188,7 @@ double metUntil(const Run& run, const FlowModels& models, std::size_t number) {
   if (!requirement.demand.isAlways || models.at.size() <= question.from) return RequirementResult::unknown;
   std::vector<char> isOwned(static_cast<std::size_t>(models.symbols), 0);
   for (std::size_t q = 0; q < run.study.uncertain.size(); ++q)
-    if (const int symbol = models.components[static_cast<std::size_t>(run.problem.motion.slot[q])].symbol; symbol >= 0)
+    if (const int symbol = models.components[static_cast<std::size_t>(run.motion.slot[q])].symbol; symbol >= 0)
       isOwned[static_cast<std::size_t>(symbol)] = 1;
   for (int l = 0; l < models.symbols; ++l)
     if (isOwned[static_cast<std::size_t>(l)] == 0) question.besides.push_back(l);
@@ -203,7 +203,7 @@ double metUntil(const Run& run, const FlowModels& models, std::size_t number) {
     const std::size_t middle = met + (open - met) / 2;
     (isMetUntil(middle) ? met : open) = middle;
   }
-  return run.study.motion.times[met];
+  return run.study.times[met];
 }
 
 /// Does it while there is room, and takes the time of it.
@@ -280,8 +280,9 @@ std::shared_ptr<const FlowModels> sharpenedModels(const Run& run) {
   const std::vector<bool> isStrict = areStrict(run.study);
   const bool isAtZero = std::ranges::find(isStrict, false) != isStrict.end();
   const std::shared_ptr<const FlowModels> models = sharpenedByEnclosure(run, run.enclosed.models);
-  if (!isAtZero || !run.problem.varying.empty() || run.study.horizon == 0) return models;
-  return sharpenedAtStart(models, run.study.motion.f, run.study.motion.g, marginOutputs(run.study), run.problem.box);
+  if (!isAtZero || !run.machine.varying.empty() || run.study.horizon == 0) return models;
+  return sharpenedAtStart(models, run.machine.equations.f, run.machine.equations.g, marginOutputs(run.study),
+                          run.machine.box);
 }
 
 void proveAll(Run& run) {
@@ -342,7 +343,7 @@ void stateRequirements(Run& run) {
   }
   run.results.margins = marginsOf(run.study);
   run.suspects.resize(run.study.requirements.size());
-  run.worstMargins.assign(run.study.requirements.size(), FirstOrder(run.problem.motion.uncertain));
+  run.worstMargins.assign(run.study.requirements.size(), FirstOrder(run.motion.uncertain));
 }
 
 void checkRequirements(Run& run) {

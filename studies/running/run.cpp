@@ -64,7 +64,7 @@ void describeOrigin(Run& run) {
   origin.libraries = libraryVersions();
   origin.outputs.assign(study.outputs.begin(), study.outputs.end());
   origin.horizon = study.horizon;
-  origin.time = study.motion.times;
+  origin.time = study.times;
   origin.dependence = dependenceText(study);
   for (const UncertainQuantity& q : study.uncertain) {
     const Uncertain& u = q.uncertain;
@@ -90,22 +90,16 @@ void describeOrigin(Run& run) {
 
 }  // namespace
 
-Run::Run(const Study& whatIsAsked, const RunOptions& howToRun)
-    : study(whatIsAsked),
-      options(howToRun),
-      watch(limitsOf(study, options), options.cancelled, {options.overdue}, study.recordingCpu) {
-  describeOrigin(*this);
-  addCost(results, "equations", study.recordingCpu);
-  problem = makeProblem(study);
-}
+Run::Run(const Machine& whatMoves, const RunOptions& howToRun) : Run(whatMoves, howToRun, {}) { describeOrigin(*this); }
 
-Run::Run(const Study& whatIsAsked, const RunOptions& howToRun, Results found)
-    : study(whatIsAsked),
+Run::Run(const Machine& whatMoves, const RunOptions& howToRun, Results found)
+    : machine(whatMoves),
+      study(machine.study),
       options(howToRun),
-      watch(limitsOf(study, options), options.cancelled, {options.overdue}, study.recordingCpu),
-      problem(makeProblem(study)),
+      watch(limitsOf(study, options), options.cancelled, {options.overdue}, machine.cpu),
+      motion(machine.motion),
       results(std::move(found)) {
-  addCost(results, "equations", study.recordingCpu);
+  addCost(results, "equations", machine.cpu);
 }
 
 std::function<void(double)> Run::progressOf(const std::string& task) const {
@@ -125,8 +119,7 @@ Limits limitsOf(const Study& study, const RunOptions& options) {
 double memoryNeeded(const Study& study, const RunOptions& options) {
   if (!study.asksFor<StochasticResult>()) return 0;
   const std::size_t levels = study.asksFor<FuzzyResult>() ? static_cast<std::size_t>(study.levels) : 0;
-  const std::size_t times = study.motion.times.size(), outputs = study.outputs.size(),
-                    quantities = study.uncertain.size();
+  const std::size_t times = study.times.size(), outputs = study.outputs.size(), quantities = study.uncertain.size();
   constexpr double beside = 2049;  // corners and centre at most
   const std::size_t counted = options.samples.value_or(study.ensemble.samples);
   const double samples = static_cast<double>(counted) + beside;
@@ -140,8 +133,8 @@ double memoryNeeded(const Study& study, const RunOptions& options) {
          copies * std::min(study.storage, all);
 }
 
-Results run(const Study& study, const RunOptions& options) {
-  Run run(study, options);
+Results run(const Machine& machine, const RunOptions& options) {
+  Run run(machine, options);
   bool isProved = false;
   for (const auto& unit : units) {
     if (!run.failure.empty() && unit != noteStop && unit != compareAnswers) continue;

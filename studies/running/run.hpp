@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "studies/machine.hpp"
 #include "studies/results/results.hpp"
-#include "studies/study.hpp"
 
 namespace gamut {
 
@@ -35,6 +35,7 @@ double memoryNeeded(const Study& study, const RunOptions& options);
 
 /// Everything that the study asks for. An analysis that ends early says why in its part of the results; no verdict is
 /// given (ComparisonResult::present is false) unless samples and either enclosures or alpha-cuts were asked for.
-Results run(const Study& study, const RunOptions& options = {});
+Results run(const Machine& machine, const RunOptions& options = {});
+inline Results run(const Study& study, const RunOptions& options = {}) { return run(Machine(study), options); }
 
 }  // namespace gamut

@@ -10,14 +10,13 @@
 
 namespace gamut {
 
-EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, const Results& results,
-                                std::size_t samples) {
-  EnsembleOptions options = study.ensemble;
+EnsembleOptions ensembleOptions(const Machine& machine, const Results& results, std::size_t samples) {
+  EnsembleOptions options = machine.study.ensemble;
   options.seed = results.seed;
   options.samples = samples;
-  options.alpha = problem.alpha;
+  options.alpha = machine.alpha;
   const ExtremeSamples& extremes = results.stochastic.extremes;
-  const std::size_t quantities = study.uncertain.size();
+  const std::size_t quantities = machine.study.uncertain.size();
   for (auto values = extremes.values.begin(); values != extremes.values.end();
        values += static_cast<std::ptrdiff_t>(quantities))
     options.extremes.emplace_back(values, values + static_cast<std::ptrdiff_t>(quantities));
@@ -29,9 +28,9 @@ EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, cons
   return options;
 }
 
-void takeSwitching(Problem& problem, const Results& results) {
+UncertainMotion withSwitchingOf(const Results& results, UncertainMotion motion) {
   const SwitchingResult& entries = results.stochastic.switching;
-  SwitchingCourses& switching = problem.motion.switching;
+  SwitchingCourses& switching = motion.switching;
   switching.courses.clear();
   std::int64_t sample = -1;
   const auto check = [](bool makesSense) {
@@ -44,12 +43,13 @@ void takeSwitching(Problem& problem, const Results& results) {
     check(of != switching.quantities.end());
     SwitchingCourse& course = switching.courses.back()[static_cast<std::size_t>(of - switching.quantities.begin())];
     check(course.from.empty() ? entries.from[i] == 0 : entries.from[i] > course.from.back());
-    check(contains(problem.motion.uncertain[*of].range, entries.value[i]));
+    check(contains(motion.uncertain[*of].range, entries.value[i]));
     course.from.push_back(entries.from[i]);
     course.values.push_back(entries.value[i]);
   }
   for (const std::vector<SwitchingCourse>& courses : switching.courses)
     for (const SwitchingCourse& course : courses) check(!course.from.empty());
+  return motion;
 }
 
 std::size_t enclosedTimes(const Results& results) {
@@ -60,16 +60,16 @@ std::size_t enclosedTimes(const Results& results) {
   return rows;
 }
 
-void moveSamples(const Study& study, const Problem& problem, SampleBlock& block) {
+void moveSamples(const Machine& machine, SampleBlock& block) {
   std::vector<Samples> numbers;
-  const UncertainMotion& motion = problem.motion;
+  const UncertainMotion& motion = machine.motion;
   for (const double value : motion.nominal) numbers.emplace_back(value);
   for (std::size_t j = 0; j < motion.uncertain.size(); ++j) {
     std::vector<double> values;
     for (std::size_t i = 0; i < block.size(); ++i) values.push_back(block.values(i)[j]);
     numbers[static_cast<std::size_t>(motion.slot[j])] = Samples(std::move(values));
   }
-  const std::vector<Samples> moved = assembledOutputs(study, problem, numbers);
+  const std::vector<Samples> moved = assembledOutputs(machine, numbers);
   for (std::size_t j = 0; j < moved.size(); ++j)
     for (std::size_t i = 0; i < block.size(); ++i) block(i, 0, j) = moved[j][moved[j].isConstant() ? 0 : i];
 }

@@ -6,28 +6,27 @@
 #include <vector>
 
 #include "mechanics/assembly.hpp"
-#include "studies/problem.hpp"
-#include "studies/study.hpp"
+#include "studies/machine.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut {
 
 /// What says which values the samples have and how they are integrated; neither limits nor threads. `results`: their
 /// seed, and in which quantities outputs turn, where they hold that already.
-EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, const Results& results,
-                                std::size_t samples);
+EnsembleOptions ensembleOptions(const Machine& machine, const Results& results, std::size_t samples);
 
-/// Lets samples follow the courses that results hold, by the number that chooses each. Throws std::invalid_argument
-/// where these make no sense.
-void takeSwitching(Problem& problem, const Results& results);
+/// The motion whose samples follow the courses that results hold, by the number that chooses each. Throws
+/// std::invalid_argument where these make no sense.
+UncertainMotion withSwitchingOf(const Results& results, UncertainMotion motion);
 
-/// Kinematics: the study's outputs by the assembly itself instead of its recording. `numbers` as Problem::box.
+/// Kinematics: the study's outputs by the assembly itself instead of its recording. `numbers` as Machine::box.
 template <class S>
-std::vector<S> assembledOutputs(const Study& study, const Problem& problem, const std::vector<S>& numbers) {
+std::vector<S> assembledOutputs(const Machine& machine, const std::vector<S>& numbers) {
   const std::span<const S> values(numbers);
-  Assembly<S> assembly(study.mechanism, problem.freeParameters, values.subspan(problem.states));
-  assembly.setMotion(values.first(problem.states));
+  Assembly<S> assembly(machine.study.mechanism, machine.freeParameters, values.subspan(machine.states));
+  assembly.setMotion(values.first(machine.states));
   std::vector<S> outputs;
-  for (const Expression& output : outputExpressions(study)) outputs.push_back(assembly.output(output));
+  for (const Expression& output : outputExpressions(machine.study)) outputs.push_back(assembly.output(output));
   return outputs;
 }
 
@@ -35,6 +34,6 @@ std::vector<S> assembledOutputs(const Study& study, const Problem& problem, cons
 std::size_t enclosedTimes(const Results& results);
 
 /// Kinematics: the same samples once more, all at once, by the assembly itself.
-void moveSamples(const Study& study, const Problem& problem, SampleBlock& block);
+void moveSamples(const Machine& machine, SampleBlock& block);
 
 }  // namespace gamut

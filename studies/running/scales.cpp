@@ -15,13 +15,13 @@ namespace {
 std::vector<double> grainsOf(const Run& run) {
   constexpr std::size_t looks = 8;
   constexpr double digit = 0x1p-50;
-  Motion motion = run.problem.motion.motion;
+  Motion motion = run.motion.motion;
   Evaluator<Interval> outputs(motion.g);
   const int n = motion.f.states();
   motion.g = record(n, motion.g.parameters(), n,
                     [](const auto&, const auto& x, const auto&, auto& y) { std::ranges::copy(x, y.begin()); });
   motion.outputNames.clear();
-  const std::vector<double>& start = run.problem.motion.nominal;
+  const std::vector<double>& start = run.motion.nominal;
   Table states(motion.times.size(), static_cast<std::size_t>(n));
   if (n > 0)
     Witness(motion, run.study.ensemble.method, run.watch.stop())

@@ -1,4 +1,4 @@
-// What of a study's machine is seen, and when: for the picture in the report.
+// What of a machine is seen, and when: for the picture in the report.
 #pragma once
 
 #include <cstddef>
@@ -6,12 +6,11 @@
 
 #include "mechanics/skeleton.hpp"
 #include "scalars/program/program.hpp"
-#include "studies/problem.hpp"
-#include "studies/study.hpp"
+#include "studies/machine.hpp"
 
 namespace gamut {
 
-/// Programs take what those of the study's motion take: states and free parameters, in kinematics parameters alone.
+/// Programs take what the machine's equations take.
 struct Seen {
   Skeleton skeleton;
   std::vector<std::size_t> times;  ///< indices of output times, rising; first and last are among them
@@ -32,6 +31,6 @@ inline constexpr std::size_t seenSamples = 6;
 inline constexpr std::size_t mostEnclosedPoints = 120;
 
 /// Empty for a mechanism of states alone.
-Seen whatIsSeen(const Study& study, const Problem& problem);
+Seen whatIsSeen(const Machine& machine);
 
 }  // namespace gamut

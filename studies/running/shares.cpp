@@ -69,7 +69,7 @@ void compareShares(Run& run) {
     const std::span<const double> all = std::span(result.value).subspan(begin, result.point.size());
     const auto count = static_cast<std::size_t>(
         std::ranges::find_if(all, [](double value) { return std::isnan(value); }) - all.begin());
-    const std::size_t row = rowOf(run.study.motion.times, result.time[at]);
+    const std::size_t row = rowOf(run.study.times, result.time[at]);
     const SampledShares shares = run.ensemble->shares(row, output);
     if (count == 0 || shares.value.empty()) continue;
     const ProvedDistribution proved{all.first(count), std::span(result.lower).subspan(begin, count),

@@ -36,7 +36,7 @@ void sampleWhileThereIsRoom(Run& run, Watch::Stage stage, const Sample& sample) 
 
 EnsembleOptions ensembleOptions(const Run& run) {
   EnsembleOptions options =
-      ensembleOptions(run.study, run.problem, run.results, run.options.samples.value_or(run.study.ensemble.samples));
+      ensembleOptions(run.machine, run.results, run.options.samples.value_or(run.study.ensemble.samples));
   options.jobs = run.options.jobs;
   options.secondsPerSample = run.results.limits.sampleTime;
   options.progress = run.progressOf("samples");
@@ -160,7 +160,7 @@ void describeTransformation(Run& run) {
 /// Some output times.
 std::vector<std::size_t> rowsOfInfluence(const Run& run) {
   constexpr std::size_t most = 64;
-  const std::size_t last = run.study.motion.times.size() - 1, count = std::clamp<std::size_t>(last, 1, most);
+  const std::size_t last = run.study.times.size() - 1, count = std::clamp<std::size_t>(last, 1, most);
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i <= count; ++i)
     if (const std::size_t row = i * last / count; rows.empty() || row > rows.back()) rows.push_back(row);
@@ -179,7 +179,7 @@ void describeInfluence(Run& run, const InfluenceMeasures& measures) {
   InfluenceResult& result = run.results.fuzzy.influence;
   const std::vector<std::size_t> rows = rowsOfInfluence(run);
   for (std::size_t at = 0; at < rows.size() && rows[at] < run.ensemble->reachedTimes(); ++at) {
-    result.time.push_back(run.study.motion.times[rows[at]]);
+    result.time.push_back(run.study.times[rows[at]]);
     for (std::size_t output = 0; output < run.study.outputs.size(); ++output)
       std::ranges::copy(measures.shares(at, output), std::back_inserter(result.share));
   }
@@ -201,7 +201,7 @@ void takeFirstSamples(Run& run) {
   }
   const bool isAllThereIs = run.former || (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>());
   sampleWhileThereIsRoom(run, isAllThereIs ? Watch::Stage::rest : Watch::Stage::firstSamples, [&] {
-    EnsembleRun& ensemble = run.ensemble.emplace(run.problem.motion, options);
+    EnsembleRun& ensemble = run.ensemble.emplace(run.motion, options);
     stochastic.samples = static_cast<std::int64_t>(ensemble.sampling().samples());
     stochastic.corners = static_cast<std::int64_t>(ensemble.sampling().corners());
     stochastic.alphaCorners = static_cast<std::int64_t>(ensemble.sampling().boxCorners());
@@ -217,9 +217,9 @@ void takeOtherSamples(Run& run) {
   if (!run.ensemble) return;
   sampleWhileThereIsRoom(run, Watch::Stage::rest, [&] {
     const Proved proved{run.results.interval.at, run.results.fuzzy.outer, run.enclosed.reachedTimes};
-    Settlement settlement(proved, run.problem.motion, comparisonOptions(run));
+    Settlement settlement(proved, run.motion, comparisonOptions(run));
     const std::size_t last = run.ensemble->sampling().centre();
-    SampleKeeper keeper(last + 1, run.study.uncertain.size(), run.study.motion.times.size() * run.study.outputs.size(),
+    SampleKeeper keeper(last + 1, run.study.uncertain.size(), run.study.times.size() * run.study.outputs.size(),
                         run.study.storage);
     std::optional<InfluenceMeasures> influence = measureInfluence(run);
     if (!run.former) {
@@ -230,7 +230,7 @@ void takeOtherSamples(Run& run) {
       run.ensemble->setExtremes(std::move(extremes));
     }
     run.ensemble->integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
-      if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.study, run.problem, block);
+      if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.machine, block);
       settlement.settle(block, [&](const Comparison& found, int level) { takeDisputes(run, found, level); });
       if (run.former) run.former->meet(block, run.results.comparison.disputed);
       noteRequirements(run, block);

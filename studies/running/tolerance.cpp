@@ -18,10 +18,10 @@ namespace {
 
 class Finder {
  public:
-  Finder(const Study& study, const ToleranceOptions& options)
-      : study_(study), options_(options), problem_(makeProblem(study)) {
-    if (study.requirements.empty()) throw std::invalid_argument("the study has no [[requirement]]");
-    if (study.uncertain.empty()) throw std::invalid_argument("the study has no [[uncertain]] quantity");
+  Finder(const Machine& machine, const ToleranceOptions& options)
+      : machine_(machine), study_(machine.study), options_(options) {
+    if (study_.requirements.empty()) throw std::invalid_argument("the study has no [[requirement]]");
+    if (study_.uncertain.empty()) throw std::invalid_argument("the study has no [[uncertain]] quantity");
   }
 
   AllowedDeviations find() {
@@ -71,23 +71,22 @@ class Finder {
   };
 
   FlowOptions ownOptions() const {
-    FlowOptions options = flowOptions(study_, problem_, options_.jobs, options_.cancelled);
+    FlowOptions options = flowOptions(machine_, options_.jobs, options_.cancelled);
     options.budget = std::max(0.1, options_.budget - worked() / Work::perSecond);
     return options;
   }
 
   /// A flow of the nominal values alone tells.
   std::string violatedAtNominal() const {
-    Box box = problem_.box;
-    for (std::size_t q = 0; q < study_.uncertain.size(); ++q)
-      if (!study_.uncertain[q].varies)
-        box[static_cast<std::size_t>(problem_.motion.slot[q])] = study_.uncertain[q].uncertain.nominal;
+    Box box = machine_.box;
+    for (const auto [number, slot] : machine_.constants)
+      box[static_cast<std::size_t>(slot)] = study_.uncertain[number].uncertain.nominal;
     const auto models =
         study_.analysis == Study::Analysis::kinematics
-            ? modelImage(study_.motion.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled)
-            : modelMargins(study_, ownOptions(), box).models();
+            ? modelImage(machine_.equations.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled)
+            : modelMargins(machine_, ownOptions(), box).models();
     for (const Requirement& requirement : study_.requirements)
-      if (models && models->at.size() > rowOf(study_.motion.times, requirement.demand.until) &&
+      if (models && models->at.size() > rowOf(study_.times, requirement.demand.until) &&
           Cells(*models, questionOf(study_, requirement, models->at.size())).whole()->verdict() ==
               Cell::Verdict::violated)
         return requirement.name;
@@ -97,27 +96,27 @@ class Finder {
   /// Deviations of these quantities `factor` times the stated ones.
   Trial attempt(const std::vector<char>& deviate, double factor) {
     std::vector<Uncertain> uncertain;
-    Box box = problem_.box;
+    Box box = machine_.box;
     for (std::size_t q = 0; q < study_.uncertain.size(); ++q) {
       Uncertain& u = uncertain.emplace_back(study_.uncertain[q].uncertain);
       if (deviate[q] != 0) u.range = scaled(q, factor);
-      box[static_cast<std::size_t>(problem_.motion.slot[q])] = u.range;
+      box[static_cast<std::size_t>(machine_.motion.slot[q])] = u.range;
     }
     std::vector<CellQuantity> quantities;
     std::vector<char> deviates;
-    for (std::size_t q = 0; q < uncertain.size(); ++q) {
-      if (study_.uncertain[q].varies) continue;
-      quantities.push_back({problem_.motion.slot[q], &uncertain[q]});
-      deviates.push_back(deviate[q]);
+    for (const auto [number, slot] : machine_.constants) {
+      quantities.push_back({slot, &uncertain[number]});
+      deviates.push_back(deviate[number]);
     }
     std::shared_ptr<const FlowModels> models;
     Trial trial{1, {}};
     std::string why;
     try {
       if (study_.analysis == Study::Analysis::kinematics) {
-        models = modelImage(study_.motion.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled);
+        models =
+            modelImage(machine_.equations.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled);
       } else {
-        const Tube tube = modelMargins(study_, ownOptions(), box);
+        const Tube tube = modelMargins(machine_, ownOptions(), box);
         models = tube.models();
         why = tube.why();
       }
@@ -128,7 +127,7 @@ class Finder {
     RequirementOptions own;
     own.cancelled = options_.cancelled;
     for (const Requirement& requirement : study_.requirements) {
-      const std::size_t until = rowOf(study_.motion.times, requirement.demand.until);
+      const std::size_t until = rowOf(study_.times, requirement.demand.until);
       const bool reaches = models->at.size() > until;
       const CellQuestion question = questionOf(study_, requirement, models->at.size());
       if (!reaches && (requirement.demand.isAlways || question.from >= models->at.size())) return {0, why};
@@ -173,17 +172,17 @@ class Finder {
     return found;
   }
 
+  const Machine& machine_;
   const Study& study_;
   const ToleranceOptions& options_;
-  const Problem problem_;
   const std::uint64_t began_ = Work::counted();
   double done_ = 0;
 };
 
 }  // namespace
 
-AllowedDeviations findTolerances(const Study& study, const ToleranceOptions& options) {
-  return Finder(study, options).find();
+AllowedDeviations findTolerances(const Machine& machine, const ToleranceOptions& options) {
+  return Finder(machine, options).find();
 }
 
 }  // namespace gamut

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scalars/interval.hpp"
-#include "studies/study.hpp"
+#include "studies/machine.hpp"
 
 namespace gamut {
 
@@ -35,6 +35,6 @@ struct AllowedDeviations {
 };
 
 /// Throws std::invalid_argument for a study without requirements or without uncertain quantities.
-AllowedDeviations findTolerances(const Study& study, const ToleranceOptions& options = {});
+AllowedDeviations findTolerances(const Machine& machine, const ToleranceOptions& options = {});
 
 }  // namespace gamut

@@ -15,13 +15,12 @@
 #include "analyses/samples/ensemble.hpp"
 #include "analyses/samples/first_order.hpp"
 #include "analyses/work.hpp"
-#include "studies/problem.hpp"
+#include "studies/machine.hpp"
 #include "studies/results/results.hpp"
 #include "studies/running/former_samples.hpp"
 #include "studies/running/run.hpp"
 #include "studies/running/seen.hpp"
 #include "studies/running/violations.hpp"
-#include "studies/study.hpp"
 #include "studies/watch.hpp"
 
 namespace gamut {
@@ -63,18 +62,19 @@ struct Spent {
 
 /// One run on its way.
 struct Run {
-  Run(const Study& whatIsAsked, const RunOptions& howToRun);
+  Run(const Machine& whatMoves, const RunOptions& howToRun);
   /// One that goes on from what is there.
-  Run(const Study& whatIsAsked, const RunOptions& howToRun, Results found);
+  Run(const Machine& whatMoves, const RunOptions& howToRun, Results found);
 
-  Bounds emptyBounds() const { return {study.motion.times.size(), study.outputs.size()}; }
+  Bounds emptyBounds() const { return {study.times.size(), study.outputs.size()}; }
   /// What tells the user how far a task is.
   std::function<void(double)> progressOf(const std::string& task) const;
 
-  const Study& study;
+  const Machine& machine;
+  const Study& study;  ///< the machine's
   const RunOptions& options;
   Watch watch;
-  Problem problem;
+  UncertainMotion motion;  ///< the machine's, with switching courses that the run finds
   Results results;
   Spent spent;                           ///< by the units, as they end
   Seen seen;                             ///< filled by `lookAtMachine`

@@ -32,13 +32,20 @@ struct Thin {
   std::vector<std::vector<Interval>> over;  // [row][margin of the study]: since the time before
 };
 
+/// The motion of single values, and what of it still varies in time.
+struct ThinMotion {
+  Motion motion;
+  Box box;
+  std::vector<VaryingParameter> varying;
+};
+
 class ThinFlows {
  public:
   ThinFlows(Run& run, std::size_t number)
       : run_(run),
         requirement_(run.study.requirements[number]),
         result_(run.results.requirements[number]),
-        options_(flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop())) {
+        options_(flowOptions(run.machine, run.options.jobs, run.watch.stop())) {
     constexpr double least = 2, times = 4;  // s; the enclosure's
     options_.budget = std::max(least, times * run.spent.enclosure / Work::perSecond);
   }
@@ -47,12 +54,12 @@ class ThinFlows {
   /// told. `looksBetween`: also between output times, where doubt is left there.
   bool proves(const std::vector<double>& values, bool looksBetween) {
     ended_.clear();
-    const std::optional<Problem> problem = problemAt(values);
-    if (!problem) return false;
-    std::vector<double> times = run_.study.motion.times;
+    const std::optional<ThinMotion> motion = motionAt(values);
+    if (!motion) return false;
+    std::vector<double> times = run_.study.times;
     constexpr int mostRounds = 6;
     for (int round = 0; round <= (looksBetween ? mostRounds : 0) && !*run_.watch.stop(); ++round) {
-      const Thin thin = thinAt(*problem, times);
+      const Thin thin = thinAt(*motion, times);
       if (!thin.models || thin.models->at.size() <= rowOf(thin.times, requirement_.demand.from)) return false;
       const CellQuestion question = questionOf(thin);
       const bool isWhole = thin.times[question.until] == requirement_.demand.until;
@@ -78,15 +85,12 @@ class ThinFlows {
   long steps() const { return steps_; }
 
  private:
-  /// The box of these values alone, and programs in which what varies takes its course; nothing where no such course
-  /// is certainly meant.
-  std::optional<Problem> problemAt(const std::vector<double>& values) const {
-    Problem problem = run_.problem;
-    problem.motion.motion.f = run_.study.motion.f;
-    problem.motion.motion.g = run_.study.motion.g;
+  /// Programs in which what varies takes its course; nothing where no such course is certainly meant.
+  std::optional<ThinMotion> motionAt(const std::vector<double>& values) const {
+    ThinMotion thin{run_.machine.equations, run_.machine.box, run_.machine.varying};
     std::vector<VaryingQuantity> courses;
     std::vector<std::pair<int, SwitchingCourse>> switching;
-    const std::vector<SwitchingCourse>* const switchingAt = run_.problem.motion.switchingAt(values);
+    const std::vector<SwitchingCourse>* const switchingAt = run_.motion.switchingAt(values);
     std::size_t next = 0;
     for (std::size_t q = 0; q < values.size(); ++q) {
       const UncertainQuantity& quantity = run_.study.uncertain[q];
@@ -95,42 +99,40 @@ class ThinFlows {
       if (quantity.varies && switchingAt != nullptr) {
         const Interval inside = quantity.uncertain.inside();
         if (isEmpty(inside)) return std::nullopt;
-        const int parameter = run_.problem.courses[course].parameter;
+        const int parameter = run_.machine.courses[course].parameter;
         auto& [of, switches] = switching.emplace_back(parameter, (*switchingAt)[course]);
         for (double& value : switches.values) value = std::clamp(value, inside.lower(), inside.upper());
-        std::erase_if(problem.varying, [&](const VaryingParameter& input) { return input.parameter == parameter; });
+        std::erase_if(thin.varying, [&](const VaryingParameter& input) { return input.parameter == parameter; });
         continue;
       }
       // Where an interval is no wider than roundings, nobody knows which numbers are meant: all that may be.
       const bool isNarrow = !quantity.varies && isEmpty(quantity.uncertain.inside());
-      problem.box[static_cast<std::size_t>(problem.motion.slot[q])] =
+      thin.box[static_cast<std::size_t>(run_.motion.slot[q])] =
           isNarrow ? quantity.uncertain.range : Interval(values[q]);
       if (!quantity.varies) continue;
       // Ends are rounded outward from decimals: the course keeps to what lies inside.
-      VaryingQuantity& of = courses.emplace_back(run_.problem.courses[course]);
+      VaryingQuantity& of = courses.emplace_back(run_.machine.courses[course]);
       of.range = quantity.uncertain.inside();
       if (isEmpty(of.range)) return std::nullopt;
       of.nominal = std::clamp(of.nominal, of.range.lower(), of.range.upper());
-      std::erase_if(problem.varying, [&](const VaryingParameter& input) { return input.parameter == of.parameter; });
+      std::erase_if(thin.varying, [&](const VaryingParameter& input) { return input.parameter == of.parameter; });
     }
-    if (!switching.empty())
-      for (Program* program : {&problem.motion.motion.f, &problem.motion.motion.g})
-        *program = withSwitching(*program, switching);
-    if (!courses.empty())
-      for (Program* program : {&problem.motion.motion.f, &problem.motion.motion.g})
-        *program = withCourses(*program, courses, problem.slowest, problem.fastest);
-    return problem;
+    for (Program* program : {&thin.motion.f, &thin.motion.g}) {
+      if (!switching.empty()) *program = withSwitching(*program, switching);
+      if (!courses.empty()) *program = withCourses(*program, courses, run_.machine.slowest, run_.machine.fastest);
+    }
+    return thin;
   }
 
-  Thin thinAt(const Problem& problem, const std::vector<double>& times) {
+  Thin thinAt(const ThinMotion& of, const std::vector<double>& times) {
     if (run_.study.analysis == Study::Analysis::kinematics)
-      return {modelImage(run_.study.motion.g, 0.0, problem.box, marginOutputs(run_.study), run_.study.flow.degree,
+      return {modelImage(run_.machine.equations.g, 0.0, of.box, marginOutputs(run_.study), run_.study.flow.degree,
                          run_.watch.stop()),
               {0.0},
               {}};
     FlowOptions options = options_;
-    options.varying = problem.varying;
-    const Tube tube = modelMarginsOf(run_.study, problem.motion.motion, std::move(options), problem.box, times);
+    options.varying = of.varying;
+    const Tube tube = modelMarginsOf(run_.study, of.motion, std::move(options), of.box, times);
     steps_ += tube.steps();
     ended_ = tube.why();
     Thin thin{tube.models(), tube.times(), {}};
@@ -182,7 +184,7 @@ class ThinFlows {
     std::optional<Interval> found;
     bool isFoundBetween = false;
     for (std::size_t row = question.from; row <= question.until; ++row) {
-      const bool isBetween = !std::ranges::binary_search(run_.study.motion.times, thin.times[row]);
+      const bool isBetween = !std::ranges::binary_search(run_.study.times, thin.times[row]);
       for (std::size_t k = 0; k < question.margins.size(); ++k) {
         Interval bound = Interval::empty();
         for (const auto& snapshot : thin.models->at[row])
@@ -238,7 +240,7 @@ double doubtOf(const Run& run, std::size_t number) {
   const StochasticResult& stochastic = run.results.stochastic;
   double doubt = 0;
   if (result.worstSample < 0) return doubt;
-  const std::size_t row = rowOf(run.study.motion.times, result.worstTime);
+  const std::size_t row = rowOf(run.study.times, result.worstTime);
   for (const std::size_t output : run.study.requirements[number].marginOutputs()) {
     if (const Table& error = stochastic.error; !error.empty()) doubt = std::fmax(doubt, error(row, output));
     const Envelope& all = stochastic.envelope;

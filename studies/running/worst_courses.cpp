@@ -9,12 +9,12 @@
 namespace gamut {
 
 std::vector<std::vector<double>> takeWorstCourses(Run& run) {
-  UncertainMotion& motion = run.problem.motion;
+  UncertainMotion& motion = run.motion;
   if (motion.switching.quantities.empty() || run.study.isMotionGiven()) return {};
   WorstCourseOptions options;
   for (std::size_t output = 0; output < run.study.outputs.size(); ++output)
     if (run.scales.empty() || !run.scales[output].isNothing()) options.outputs.push_back(output);
-  options.fastest = run.problem.fastest;
+  options.fastest = run.machine.fastest;
   options.method = run.study.ensemble.method;
   options.jobs = run.options.jobs;
   options.cancelled = run.watch.stop();

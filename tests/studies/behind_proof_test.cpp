@@ -76,7 +76,7 @@ TEST(BehindTheProof, MoreSamplesEstimateAnew) {
   const Results few = run(study, options);
   EXPECT_EQ(few.requirements[0].estimate.samples, 256);
   options.samples = 512;
-  const Results more = extend(study, few, options).results;
+  const Results more = extend(Machine(study), few, options).results;
   const RequirementEstimate all = run(study, options).requirements[0].estimate,
                             extended = more.requirements[0].estimate;
   EXPECT_EQ(extended.samples, 512);

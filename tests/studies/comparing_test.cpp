@@ -208,7 +208,7 @@ Results comparedResults(const std::string& text) {
   results.studyText = text;
   results.studyFile = "s.toml";
   results.outputs.assign(study.outputs.begin(), study.outputs.end());
-  results.time = study.motion.times;
+  results.time = study.times;
   for (const UncertainQuantity& of : study.uncertain)
     results.uncertain.push_back({of.uncertain.name, of.quantity, of.unit, of.uncertain.range.lower(),
                                  of.uncertain.nominal, of.uncertain.range.upper(), "uniform", "triangular"});

@@ -63,7 +63,7 @@ Results runOf(const std::string& text, const RunOptions& options) {
 }
 
 Extension extended(const Results& results, const RunOptions& options) {
-  return extend(readStudyText(results.studyText, "s.toml"), results, options);
+  return extend(Machine(readStudyText(results.studyText, "s.toml")), results, options);
 }
 
 /// Paths in which two results differ, but those that begin so.

@@ -13,7 +13,7 @@
 #include "scalars/algebra/linear_system.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/evaluation/series.hpp"
-#include "studies/problem.hpp"
+#include "studies/machine.hpp"
 #include "studies/running/run.hpp"
 #include "tests/studies/sample_study.hpp"
 
@@ -36,7 +36,7 @@ struct Stop {
 class ImpactReference {
  public:
   ImpactReference(const Study& free, Stop stop)
-      : f_(recordMotion(free.mechanism, makeProblem(free).freeParameters, Formulation::articulated)),
+      : f_(recordMotion(free.mechanism, Machine(free).freeParameters, Formulation::articulated)),
         series_(f_, 30),
         stop_(stop),
         inertia_(inertiaOf(free)),
@@ -87,7 +87,7 @@ class ImpactReference {
 
  private:
   static Program inertiaOf(const Study& study) {
-    const auto parameters = makeProblem(study).freeParameters;
+    const auto parameters = Machine(study).freeParameters;
     const int f = study.mechanism.degreesOfFreedom(), states = static_cast<int>(study.mechanism.stateNames().size());
     return record(states, static_cast<int>(parameters.size()), f * f,
                   [&](auto t, const auto& x, const auto& p, auto& y) {
@@ -100,7 +100,7 @@ class ImpactReference {
   }
   /// The joint's speed does not change: of forces M⁻¹eᵢ λ, that one.
   static Program pinnedOf(const Study& study, const Stop& stop) {
-    const auto parameters = makeProblem(study).freeParameters;
+    const auto parameters = Machine(study).freeParameters;
     const int states = static_cast<int>(study.mechanism.stateNames().size());
     return record(states, static_cast<int>(parameters.size()), [&](auto t, const auto& x, const auto& p, auto& dx) {
       Assembly<Recorded> assembly(study.mechanism, parameters, p);
@@ -165,7 +165,7 @@ Results expectHeld(const std::string& text, const Stop& stop, const std::string&
   const Results results = run(study);
   EXPECT_EQ(results.interval.why, "");
   EXPECT_EQ(results.comparison.verdict, Agreement::inside);
-  const Problem problem = makeProblem(study);
+  const Machine machine(study);
   ImpactReference reference(free, stop);
   std::mt19937_64 random(29);
   const auto inside = [&](const Interval& side, bool isCorner) {
@@ -174,14 +174,14 @@ Results expectHeld(const std::string& text, const Stop& stop, const std::string&
   };
   for (int trial = 0; trial < trajectories && !::testing::Test::HasFailure(); ++trial) {
     Vector start;
-    for (const Interval& side : problem.box) start.emplace_back(inside(side, trial % 2 == 0));
-    const std::vector<Vector> motion = reference(start, study.motion.times);
+    for (const Interval& side : machine.box) start.emplace_back(inside(side, trial % 2 == 0));
+    const std::vector<Vector> motion = reference(start, study.times);
     for (std::size_t row = 0; row < motion.size(); ++row)
       for (std::size_t s = 0; s < motion[row].size(); ++s) {
         const std::size_t o = study.outputs.size() - motion[row].size() + s;
         EXPECT_TRUE(Precise(results.interval.at.lower(row, o)) <= motion[row][s] &&
                     motion[row][s] <= Precise(results.interval.at.upper(row, o)))
-            << study.motion.times[row] << ' ' << study.outputs[o].name;
+            << study.times[row] << ' ' << study.outputs[o].name;
       }
   }
   EXPECT_GE(reference.impacts, impacts);
@@ -320,7 +320,7 @@ TEST(Impacts, AccumulateToARestAtNoMoreThanTwoEnds) {
             "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"" + name + "Stop\"\njoint = \"" + name +
             "\"\nat = 0\nrestitution = 0.5\n";
     const std::string whole = text + uncertainBy("a.displacement", "± 1 %") + "[[output]]\nquantity = \"energy\"\n";
-    rests.push_back(readStudyText(whole, "s.toml").motion.rests.size());
+    rests.push_back(recordedMotion(readStudyText(whole, "s.toml")).rests.size());
   }
   EXPECT_THAT(rests, ::testing::ElementsAre(1, 2, 0));
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "studies/problem.hpp"
+#include "studies/machine.hpp"
 #include "studies/running/run.hpp"
 #include "studies/watch.hpp"
 #include "tests/studies/sample_study.hpp"
@@ -98,10 +98,9 @@ std::string studyOfChain(int joints) {
 /// It may be read for other purposes, as comparisons do, by a program that holds more than its runs may.
 TEST(Memory, ThatAStudyStatesIsOfItsRunsAlone) {
   Study study = readStudyText(studyOfChain(100), "s.toml");
-  const std::size_t nodes = study.motion.f.nodes().size();
+  const std::size_t nodes = recordedMotion(study).f.nodes().size();
   study.limits.memory = 1e6;
-  recordPrograms(study);
-  EXPECT_EQ(study.motion.f.nodes().size(), nodes);
+  EXPECT_EQ(recordedMotion(study).f.nodes().size(), nodes);
 }
 
 /// In a chain every joint moves all masses behind it.

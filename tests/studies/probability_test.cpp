@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "analyses/samples/ensemble.hpp"
-#include "studies/problem.hpp"
+#include "studies/machine.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/running/run.hpp"
 #include "tests/studies/sample_study.hpp"
@@ -46,7 +46,7 @@ TEST(Probabilities, AreAskedForAtSomeTimes) {
   const Study study = asked("[distribution]\ntimes = [\"250 ms\", 0.5, 0.25]\ngap = \"1 %\"\n");
   EXPECT_THAT(study.distribution.times, ElementsAre(0.25, 0.5));
   EXPECT_EQ(study.distribution.gap, 0.01);
-  EXPECT_THAT(study.motion.times, ElementsAre(0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5));
+  EXPECT_THAT(study.times, ElementsAre(0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5));
   const auto refusal = [](const std::string& text) { return [text] { asked("[distribution]\n" + text + "\n"); }; };
   EXPECT_THAT(refusal("times = [0.6]"),
               ThrowsMessage<StudyError>(HasSubstr("distribution.times has 0.6 s, outside the study's time; expected "
@@ -189,15 +189,15 @@ TEST(Derivatives, HoldWhatOutputsChangeBy) {
   ASSERT_TRUE(derivatives.present);
   EXPECT_EQ(derivatives.why, "");
   EXPECT_EQ(derivatives.reached, 0.5);
-  ASSERT_EQ(derivatives.time, study.motion.times);
-  const Problem problem = makeProblem(study);
+  ASSERT_EQ(derivatives.time, study.times);
+  const Machine machine(study);
   std::vector<double> nominal;
   for (const UncertainQuantity& q : study.uncertain) nominal.push_back(q.uncertain.nominal);
   for (std::size_t q = 0; q < nominal.size(); ++q) {
     const auto outputsAt = [&](double value) {
       std::vector<double> values = nominal;
       values[q] = value;
-      return integrateValues(problem.motion, study.ensemble, values).trajectory(0);
+      return integrateValues(machine.motion, study.ensemble, values).trajectory(0);
     };
     const Interval& range = study.uncertain[q].uncertain.range;
     const std::vector<double> below = outputsAt(range.lower()), above = outputsAt(range.upper());

@@ -82,11 +82,12 @@ std::vector<std::uint64_t> bitsOf(const std::vector<double>& values) {
 
 /// As the statistics do: sample by sample.
 Envelope envelopeOfReplays(const Results& results) {
-  const Study study = readStudyText(results.studyText, "again.toml");
-  Envelope envelope(study.motion.times.size(), study.outputs.size());
+  const Machine machine(readStudyText(results.studyText, "again.toml"));
+  const Study& study = machine.study;
+  Envelope envelope(study.times.size(), study.outputs.size());
   for (std::int64_t number = 0; number < results.stochastic.planned(); ++number) {
-    const ReplayedSample sample = replay(study, results, static_cast<std::size_t>(number));
-    EXPECT_EQ(sample.times, study.motion.times.size());
+    const ReplayedSample sample = replay(machine, results, static_cast<std::size_t>(number));
+    EXPECT_EQ(sample.times, study.times.size());
     for (std::size_t i = 0; i < sample.times; ++i)
       for (std::size_t j = 0; j < study.outputs.size(); ++j) envelope.include(i, j, sample.trajectory(i, j));
   }
@@ -116,10 +117,10 @@ TEST(Replay, TakesSeedAndNumberOfSamplesFromTheRun) {
   options.jobs = 2;
   const Results results = resultsOf(sampleStudy, options);
   expectTheEnvelope(results);
-  const Study study = readStudyText(sampleStudy, "s.toml");
+  const Machine machine(readStudyText(sampleStudy, "s.toml"));
   Results other = results;
   other.seed = 12346;
-  EXPECT_NE(replay(study, results, 77).values, replay(study, other, 77).values);
+  EXPECT_NE(replay(machine, results, 77).values, replay(machine, other, 77).values);
 }
 
 TEST(Replay, HoldsForEveryPlanAndMethod) {
@@ -161,9 +162,9 @@ TEST(Replay, HoldsForExtremesWhateverPointsThereAreBesides) {
     const ExtremeSamples& extremes = results.stochastic.extremes;
     ASSERT_THAT(extremes.number, Not(IsEmpty()));
     expectTheEnvelope(results);
-    const Study study = readStudyText(results.studyText, "s.toml");
+    const Machine machine(readStudyText(results.studyText, "s.toml"));
     for (std::size_t i = 0; i < extremes.number.size(); ++i)
-      EXPECT_THAT(replay(study, results, static_cast<std::size_t>(extremes.number[i])).values,
+      EXPECT_THAT(replay(machine, results, static_cast<std::size_t>(extremes.number[i])).values,
                   ElementsAre(extremes.values[2 * i], extremes.values[2 * i + 1]));
   }
 }
@@ -179,12 +180,12 @@ TEST(Replay, HoldsForWorstCourses) {
 
 TEST(Replay, OfADisputedSampleGivesWhatSettledIt) {
   const Results results = resultsOf(sampleStudy);
-  const Study study = readStudyText(results.studyText, "s.toml");
+  const Machine machine(readStudyText(results.studyText, "s.toml"));
   ASSERT_THAT(results.comparison.disputed, Not(IsEmpty()));
   std::map<std::int64_t, DisputedSample> last;  // what a sample became at last
   for (const DisputedSample& disputed : results.comparison.disputed) last[disputed.number] = disputed;
   for (const auto& [number, disputed] : last) {
-    const ReplayedSample sample = replay(study, results, static_cast<std::size_t>(number));
+    const ReplayedSample sample = replay(machine, results, static_cast<std::size_t>(number));
     EXPECT_EQ(sample.decided, disputed.decided);
     EXPECT_EQ(sample.trajectory(disputed.time, disputed.output), disputed.value);
   }
@@ -204,9 +205,9 @@ TEST(Replay, OfAnInterruptedRunOrOneWithOtherLimitsIsThatOfAWholeOne) {
   whole.samples = 300;
   whole.timeLimit = 1e6;
   const Results wholeRun = resultsOf(sampleStudy, whole);
-  const Study study = readStudyText(sampleStudy, "s.toml");
+  const Machine machine(readStudyText(sampleStudy, "s.toml"));
   for (const std::size_t number : {0U, 130U, 299U}) {
-    const ReplayedSample one = replay(study, interruptedRun, number), other = replay(study, wholeRun, number);
+    const ReplayedSample one = replay(machine, interruptedRun, number), other = replay(machine, wholeRun, number);
     EXPECT_EQ(one.values, other.values);
     if (other.decided.empty()) {
       EXPECT_THAT(bitsOf(one.trajectory.data), ElementsAreArray(bitsOf(other.trajectory.data)));
@@ -216,25 +217,26 @@ TEST(Replay, OfAnInterruptedRunOrOneWithOtherLimitsIsThatOfAWholeOne) {
 
 TEST(Replay, OfCornersAndCentreHasTheValuesOfTheirPlaces) {
   const Results results = resultsOf(sampleStudy);
-  const Study study = readStudyText(results.studyText, "s.toml");
+  const Machine machine(readStudyText(results.studyText, "s.toml"));
   const UncertainInfo& angle = results.uncertain.front();
   const auto first = static_cast<std::size_t>(results.stochastic.samples);
-  EXPECT_EQ(replay(study, results, first).values.front(), angle.lower);
-  EXPECT_EQ(replay(study, results, first + 1).values.front(), angle.upper);
+  EXPECT_EQ(replay(machine, results, first).values.front(), angle.lower);
+  EXPECT_EQ(replay(machine, results, first + 1).values.front(), angle.upper);
   const auto centre = static_cast<std::size_t>(results.stochastic.centre());
-  EXPECT_EQ(replay(study, results, centre).values.front(), angle.nominal);
+  EXPECT_EQ(replay(machine, results, centre).values.front(), angle.nominal);
 }
 
 TEST(Replay, RefusesWhatIsNotThere) {
   const Results results = resultsOf(sampleStudy);
-  const Study study = readStudyText(results.studyText, "s.toml");
+  const Machine machine(readStudyText(results.studyText, "s.toml"));
   const auto planned = static_cast<std::size_t>(results.stochastic.planned());
-  EXPECT_NO_THROW(replay(study, results, planned - 1));
-  EXPECT_THAT([&] { replay(study, results, planned); },
+  EXPECT_NO_THROW(replay(machine, results, planned - 1));
+  EXPECT_THAT([&] { replay(machine, results, planned); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("no sample has the number")));
   Results without = results;
   without.stochastic = {};
-  EXPECT_THAT([&] { replay(study, without, 0); }, ThrowsMessage<std::invalid_argument>("the results hold no samples"));
+  EXPECT_THAT([&] { replay(machine, without, 0); },
+              ThrowsMessage<std::invalid_argument>("the results hold no samples"));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ always = "hinge.angle^2 >= 0"
   EXPECT_TRUE(clearance.demand.isAlways);
   EXPECT_EQ(clearance.demand.from, 0.1);
   EXPECT_EQ(clearance.demand.until, 0.25);
-  EXPECT_THAT(study.motion.times, ::testing::ElementsAre(0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5));
+  EXPECT_THAT(study.times, ::testing::ElementsAre(0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5));
   ASSERT_EQ(study.outputs.size(), 8U);
   EXPECT_EQ(study.outputs[2].name, "clearance");
   EXPECT_EQ(study.outputs[2].unit, "m");
@@ -457,12 +457,12 @@ TEST(Requirements, ThatAreViolatedCanBeReplayed) {
   const Study study = read(withRequirements(four));
   const Results results = run(study);
   RequirementResult partly = named(results, "partly");
-  const ReplayedSample sample = replayViolation(study, results, partly);
+  const ReplayedSample sample = replayViolation(Machine(study), results, partly);
   EXPECT_EQ(sample.values[0], partly.violation[0]);
   EXPECT_LT(sample.trajectory(0, partly.margin), 0);
   partly.violationSample = -1;  // as of values that no sample has
-  EXPECT_EQ(replayViolation(study, results, partly).values[0], partly.violation[0]);
-  EXPECT_THROW(replayViolation(study, results, named(results, "met")), std::invalid_argument);
+  EXPECT_EQ(replayViolation(Machine(study), results, partly).values[0], partly.violation[0]);
+  EXPECT_THROW(replayViolation(Machine(study), results, named(results, "met")), std::invalid_argument);
 }
 
 // ---- What varies in time --------------------------------------------------------------------------------------------
@@ -499,7 +499,7 @@ times = 0
 
 /// What is printed as a violation must be one.
 void expectViolation(const Study& study, const Results& results, const RequirementResult& requirement) {
-  const ReplayedSample sample = replayViolation(study, results, requirement);
+  const ReplayedSample sample = replayViolation(Machine(study), results, requirement);
   double least = 1;
   for (std::size_t i = 0; i < sample.times; ++i) least = std::min(least, sample.trajectory(i, requirement.margin));
   EXPECT_LT(least, 0) << requirement.name;
@@ -528,7 +528,7 @@ always = "x < 1.5"
     expectViolation(study, results, violated);
   }
   EXPECT_EQ(named(results, "held").word, Decision::met);
-  EXPECT_THROW(replayViolation(study, results, named(results, "held")), std::invalid_argument);
+  EXPECT_THROW(replayViolation(Machine(study), results, named(results, "held")), std::invalid_argument);
 }
 
 /// With a bounded rate no course may jump; what swings is a counterexample all the same.
@@ -658,7 +658,7 @@ TEST(Tolerances, AreAsLargeAsRequirementsAllow) {
   // 30° (1 + d) < 32°: d = 0.0667, 6.67 times 1 %.
   const std::string text =
       withRequirements("[[requirement]]\nname = \"limit\"\nalways = \"angle < 32 deg\"\nuntil = 0\n");
-  const AllowedDeviations found = findTolerances(read(text));
+  const AllowedDeviations found = findTolerances(Machine(read(text)));
   EXPECT_LE(found.together.factor, 20.0 / 3);
   EXPECT_GT(found.together.factor, 0.97 * 20 / 3);
   EXPECT_EQ(found.together.limit, "limit");
@@ -672,7 +672,7 @@ TEST(Tolerances, ShrinkOneByOne) {
       "[[requirement]]\nname = \"limit\"\nalways = \"angle + 0*rod.length/m < 30.15 deg\"\nuntil = 0\n");
   text.replace(text.find("[[output]]"), 10,
                "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 1 %\"\n[[output]]");
-  const AllowedDeviations found = findTolerances(read(text));
+  const AllowedDeviations found = findTolerances(Machine(read(text)));
   EXPECT_NEAR(found.together.factor, 0.5, 0.01);
   EXPECT_LE(found.together.factor, 0.5);
   EXPECT_NEAR(found.alone[0].factor, 0.5, 0.01);
@@ -680,14 +680,14 @@ TEST(Tolerances, ShrinkOneByOne) {
 }
 
 TEST(Tolerances, SayWhatNominalValuesViolate) {
-  const AllowedDeviations found =
-      findTolerances(read(withRequirements("[[requirement]]\nname = \"limit\"\nalways = \"angle < 29 deg\"\n")));
+  const AllowedDeviations found = findTolerances(
+      Machine(read(withRequirements("[[requirement]]\nname = \"limit\"\nalways = \"angle < 29 deg\"\n"))));
   EXPECT_EQ(found.nominal, "limit");
   EXPECT_EQ(found.together.factor, 0);
 }
 
 TEST(Tolerances, NeedSomethingToBeRequired) {
-  EXPECT_THAT([] { findTolerances(read(sampleStudy)); },
+  EXPECT_THAT([] { findTolerances(Machine(read(sampleStudy))); },
               ThrowsMessage<std::invalid_argument>("the study has no [[requirement]]"));
 }
 

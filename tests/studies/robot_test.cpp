@@ -342,7 +342,7 @@ TEST(RobotStudy, NamesTheJointThatMovesNoMass) {
                          "<link name=\"left\"/>"));
   EXPECT_NO_THROW(readStudyText(studyOf(""), folder.path("s.toml"))) << "the other finger has a mass";
   try {
-    readStudyText(studyOf("mimic = false\n"), folder.path("s.toml"));
+    Machine(readStudyText(studyOf("mimic = false\n"), folder.path("s.toml")));
     ADD_FAILURE();
   } catch (const StudyError& error) {
     EXPECT_THAT(error.what(), HasSubstr("the joint 'left-finger' moves no mass"));

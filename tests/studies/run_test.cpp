@@ -11,7 +11,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "studies/problem.hpp"
+#include "studies/machine.hpp"
 #include "studies/running/replay.hpp"
 #include "studies/watch.hpp"
 #include "tests/studies/sample_study.hpp"
@@ -38,28 +38,28 @@ Study sampleWith(const std::string& old, const std::string& replacement) {
   return readStudyText(sampleStudyWith(old, replacement), "s.toml");
 }
 
-TEST(Problem, PutsStatesFirstAndFreeParametersBehindThem) {
-  const Problem problem = makeProblem(sampleWith("[[uncertain]]", threeUncertain));
-  EXPECT_EQ(problem.states, 2U);
-  EXPECT_THAT(problem.freeParameters, ::testing::ElementsAre("rod.length", "gravity.z"));
-  ASSERT_EQ(problem.box.size(), 4U);
-  EXPECT_THAT(problem.motion.slot, ::testing::ElementsAre(2, 3, 0));
-  EXPECT_TRUE(isSubset(Interval("[0.495, 0.505]"), problem.box[2]));
-  EXPECT_TRUE(isSubset(Interval("[-9.83, -9.79]"), problem.box[3]));
-  EXPECT_TRUE(isEqual(problem.box[1], Interval(0.5)));
-  EXPECT_EQ(problem.motion.motion.f.parameters(), 2);
-  EXPECT_EQ(problem.motion.nominal[2], 0.5);
+TEST(Machine, PutsStatesFirstAndFreeParametersBehindThem) {
+  const Machine machine(sampleWith("[[uncertain]]", threeUncertain));
+  EXPECT_EQ(machine.states, 2U);
+  EXPECT_THAT(machine.freeParameters, ::testing::ElementsAre("rod.length", "gravity.z"));
+  ASSERT_EQ(machine.box.size(), 4U);
+  EXPECT_THAT(machine.motion.slot, ::testing::ElementsAre(2, 3, 0));
+  EXPECT_TRUE(isSubset(Interval("[0.495, 0.505]"), machine.box[2]));
+  EXPECT_TRUE(isSubset(Interval("[-9.83, -9.79]"), machine.box[3]));
+  EXPECT_TRUE(isEqual(machine.box[1], Interval(0.5)));
+  EXPECT_EQ(machine.motion.motion.f.parameters(), 2);
+  EXPECT_EQ(machine.motion.nominal[2], 0.5);
 }
 
-TEST(Problem, NestsTheLevelsFromTheSupportsToTheCores) {
-  const Problem problem = makeProblem(sampleWith("[[uncertain]]", threeUncertain));
-  ASSERT_EQ(problem.levels.size(), 11U);
-  EXPECT_EQ(problem.alpha.front(), 0);
-  EXPECT_EQ(problem.alpha.back(), 1);
+TEST(Machine, NestsTheLevelsFromTheSupportsToTheCores) {
+  const Machine machine(sampleWith("[[uncertain]]", threeUncertain));
+  ASSERT_EQ(machine.levels.size(), 11U);
+  EXPECT_EQ(machine.alpha.front(), 0);
+  EXPECT_EQ(machine.alpha.back(), 1);
   for (std::size_t j = 0; j < 11; ++j)
     for (std::size_t i = 0; i < 4; ++i)
-      EXPECT_TRUE(isSubset(problem.levels[j][i], j == 0 ? problem.box[i] : problem.levels[j - 1][i]));
-  EXPECT_TRUE(isThin(problem.levels[10][2]));
+      EXPECT_TRUE(isSubset(machine.levels[j][i], j == 0 ? machine.box[i] : machine.levels[j - 1][i]));
+  EXPECT_TRUE(isThin(machine.levels[10][2]));
 }
 
 /// The same motion in other units: requirements are none of its business.
@@ -162,11 +162,11 @@ TEST(Run, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
   RunOptions options;
   options.samples = 704;
   const StochasticResult found = run(study, options).stochastic;
-  const Problem problem = makeProblem(study);
+  const Machine machine(study);
   EnsembleOptions ensemble = study.ensemble;
   ensemble.samples = 704;
   std::vector<std::vector<double>> trajectories;
-  for (std::size_t i = 0; i < 704; ++i) trajectories.push_back(replaySample(problem.motion, ensemble, i).trajectory(0));
+  for (std::size_t i = 0; i < 704; ++i) trajectories.push_back(replaySample(machine.motion, ensemble, i).trajectory(0));
   for (std::size_t cell = 0; cell < trajectories[0].size(); ++cell) {
     std::vector<double> column;
     for (const std::vector<double>& trajectory : trajectories) column.push_back(trajectory[cell]);
@@ -190,20 +190,20 @@ TEST(Run, KeepsValuesAndMotionsOfTheSamplesThemselves) {
   const KeptSamples& kept = results.stochastic.kept;
   EXPECT_EQ(kept.storage, 2e4);
   EXPECT_GT(kept.motionsEvery, kept.valuesEvery);
-  const Problem problem = makeProblem(study);
+  const Machine machine(study);
   EnsembleOptions ensemble = study.ensemble;
-  ensemble.alpha = problem.alpha;
+  ensemble.alpha = machine.alpha;
   Sampling sampling(ensemble.plan, 1, 700, ensemble.seed);
   EXPECT_EQ(kept.number.back(), results.stochastic.centre());
   EXPECT_EQ(kept.values.back(), study.uncertain[0].uncertain.nominal);
   for (std::size_t i = 0; kept.number[i] < 700; ++i)
-    EXPECT_EQ(kept.values[i], sampling.values(static_cast<std::size_t>(kept.number[i]), problem.motion.uncertain)[0]);
+    EXPECT_EQ(kept.values[i], sampling.values(static_cast<std::size_t>(kept.number[i]), machine.motion.uncertain)[0]);
   const std::size_t cells = results.time.size() * results.outputs.size();
   std::size_t asTheyWere = 0;
   for (std::size_t i = 0; i < kept.motionNumber.size(); ++i) {
     const auto begin = kept.motions.begin() + static_cast<std::ptrdiff_t>(i * cells);
     const std::vector<double> motion(begin, begin + static_cast<std::ptrdiff_t>(cells)),
-        replayed = replaySample(problem.motion, ensemble, static_cast<std::size_t>(kept.motionNumber[i])).trajectory(0);
+        replayed = replaySample(machine.motion, ensemble, static_cast<std::size_t>(kept.motionNumber[i])).trajectory(0);
     const bool isDisputed = std::ranges::any_of(results.comparison.disputed, [&](const DisputedSample& sample) {
       return sample.number == kept.motionNumber[i];
     });
@@ -331,10 +331,10 @@ TEST(Run, HoldsWhatVariesInTime) {
     const Study study = sampleWith("[[uncertain]]", std::string("[[uncertain]]\nquantity = \"gravity.z\"\ninterval = "
                                                                 "[-10, -9.6]\n") +
                                                         course + "\n[[uncertain]]");
-    const Problem problem = makeProblem(study);
-    ASSERT_EQ(problem.varying.size(), 1U);
-    EXPECT_EQ(problem.varying[0].parameter, 0);
-    for (const Box& level : problem.levels) EXPECT_TRUE(isEqual(level[2], problem.box[2]));
+    const Machine machine(study);
+    ASSERT_EQ(machine.varying.size(), 1U);
+    EXPECT_EQ(machine.varying[0].parameter, 0);
+    for (const Box& level : machine.levels) EXPECT_TRUE(isEqual(level[2], machine.box[2]));
     const Results results = run(study, {});
     EXPECT_EQ(results.comparison.verdict, Agreement::inside);
     EXPECT_LT(results.comparison.maximum, 1.5);
@@ -402,13 +402,13 @@ times = 0
   EXPECT_EQ(small.word, Decision::partly);
   EXPECT_GE(small.violationSample, stochastic.firstExtreme());
   EXPECT_GT(small.violation[0], 3);
-  const ReplayedSample violating = replayViolation(study, results, small),
-                       same = replay(study, results, static_cast<std::size_t>(small.violationSample));
+  const ReplayedSample violating = replayViolation(Machine(study), results, small),
+                       same = replay(Machine(study), results, static_cast<std::size_t>(small.violationSample));
   EXPECT_EQ(violating.trajectory.data, same.trajectory.data);
   EXPECT_GT(*std::ranges::max_element(same.trajectory.data), 0.9);
   Results broken = results;
   broken.stochastic.switching.value[0] = 4;
-  EXPECT_THROW(replay(study, broken, 0), std::invalid_argument);
+  EXPECT_THROW(replay(Machine(study), broken, 0), std::invalid_argument);
 }
 
 TEST(Run, SeedAndNumberOfSamplesMayBeReplaced) {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "studies/study.hpp"
+#include "studies/machine.hpp"
 #include "tests/studies/pendulum_text.hpp"
 
 namespace gamut {
@@ -37,10 +37,10 @@ inline std::string sampleStudyWith(const std::string& old, const std::string& re
   return text.replace(place, old.size(), replacement);
 }
 
-/// What the reader says of a text called `name`; "it was read" if nothing.
+/// What is said of a text called `name` that is read, and of the machine that it describes; "it was read" if nothing.
 inline std::string messageOf(const std::string& text, const std::string& name = "s.toml") {
   try {
-    readStudyText(text, name);
+    Machine(readStudyText(text, name));
   } catch (const StudyError& error) {
     return error.what();
   }

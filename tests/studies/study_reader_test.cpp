@@ -26,7 +26,7 @@ TEST(StudyReader, ReadsWhatTheFileSays) {
   EXPECT_EQ(study.title, "Pendulum");
   EXPECT_EQ(study.analysis, Study::Analysis::dynamics);
   EXPECT_EQ(study.horizon, 0.5);
-  EXPECT_THAT(study.motion.times, ElementsAre(0, 0.1, 0.2, 0.3, 0.4, 0.5));
+  EXPECT_THAT(study.times, ElementsAre(0, 0.1, 0.2, 0.3, 0.4, 0.5));
   EXPECT_EQ(study.compare, (std::set<std::string, std::less<>>{"fuzzy", "interval", "stochastic"}));
   ASSERT_EQ(study.uncertain.size(), 1U);
   EXPECT_EQ(study.uncertain[0].quantity, "hinge.angle");
@@ -464,12 +464,11 @@ TEST(StudyReader, TakesStorageInGigabytesOrWithAUnit) {
 }
 
 TEST(StudyReader, TakesTheHorizonInWhereTheStepDoesNotMeetIt) {
-  EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_step = \"200 ms\""), "s.toml").motion.times,
+  EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_step = \"200 ms\""), "s.toml").times,
               ElementsAre(0, 0.2, 0.4, 0.5));
-  EXPECT_THAT(
-      readStudyText(sampleStudyWith("output_step = 0.1", "output_times = [0.25, \"300 ms\"]"), "s.toml").motion.times,
-      ElementsAre(0, 0.25, 0.3, 0.5));
-  EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_times = [0, 0.5]"), "s.toml").motion.times,
+  EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_times = [0.25, \"300 ms\"]"), "s.toml").times,
+              ElementsAre(0, 0.25, 0.3, 0.5));
+  EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_times = [0, 0.5]"), "s.toml").times,
               ElementsAre(0, 0.5));
 }
 

@@ -7,7 +7,7 @@
 #include "analyses/samples/ensemble.hpp"
 #include "analyses/samples/sampling.hpp"
 #include "analyses/surrogate/surrogate_evaluator.hpp"
-#include "studies/problem.hpp"
+#include "studies/machine.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/running/run.hpp"
 #include "tests/studies/sample_study.hpp"
@@ -52,12 +52,12 @@ TEST(Surrogates, AreAsGoodAsTheySay) {
   writeResults(run(study), folder.path("r.h5"));
   const Results results = readResults(folder.path("r.h5"));
   const std::vector<std::size_t> rows = rowsOf(results);
-  ASSERT_EQ(rows.size(), study.motion.times.size());
+  ASSERT_EQ(rows.size(), study.times.size());
   std::vector<std::size_t> outputs;
   for (std::size_t o = 0; o < results.requirements.front().margin; ++o) outputs.push_back(o);
   constexpr std::size_t count = 100;
   const Sampled all = sampled(study, results, count, rows, outputs);
-  const Problem problem = makeProblem(study);
+  const Machine machine(study);
   EnsembleOptions fine = study.ensemble, finer = fine;
   fine.tolerance = {1e-12, 1e-12};
   finer.tolerance = {1e-13, 1e-13};
@@ -67,8 +67,8 @@ TEST(Surrogates, AreAsGoodAsTheySay) {
     const std::vector<double> values(
         all.values.begin() + static_cast<std::ptrdiff_t>(i * study.uncertain.size()),
         all.values.begin() + static_cast<std::ptrdiff_t>((i + 1) * study.uncertain.size()));
-    const SampleBlock one = integrateValues(problem.motion, fine, values),
-                      other = integrateValues(problem.motion, finer, values);
+    const SampleBlock one = integrateValues(machine.motion, fine, values),
+                      other = integrateValues(machine.motion, finer, values);
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (std::size_t k = 0; k < outputs.size(); ++k) {
         const std::size_t at = (i * rows.size() + r) * outputs.size() + k;

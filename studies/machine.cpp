@@ -1,29 +1,29 @@
 // Slots: state i is number i, free parameter k is number states + k. In kinematics nothing moves by itself: the states
 // are given, so they are parameters of a program without states. A motion that is given as a whole has one state that
 // rests, for flow and samples to follow.
-#include "studies/problem.hpp"
+#include "studies/machine.hpp"
 
-#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <new>
 #include <numbers>
 #include <span>
-#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/recorded.hpp"
+#include "studies/machine_faults.hpp"
+#include "studies/results/fuzzy.hpp"
 #include "studies/watch.hpp"
 
 namespace gamut {
 namespace {
 
 /// Those of the uncertain quantities that no state starts with.
-std::vector<std::string> freeParameters(const Study& study) {
+std::vector<std::string> freeParametersOf(const Study& study) {
   const std::vector<std::string> states = study.mechanism.stateNames();
   const std::unordered_set<std::string> isState(states.begin(), states.end());
   std::vector<std::string> names;
@@ -34,24 +34,28 @@ std::vector<std::string> freeParameters(const Study& study) {
 
 /// What varies in time follows a course: swinging once in the study's time at least, and twice as fast as the motion
 /// itself, or sixteen times in all, at most.
-void takeCourses(const Study& study, Problem& problem) {
-  SwitchingCourses& switching = problem.motion.switching;
-  for (std::size_t i = 0; i < study.uncertain.size(); ++i) {
-    const UncertainQuantity& of = study.uncertain[i];
-    if (!of.varies) continue;
-    const int parameter = problem.motion.slot[i] - static_cast<int>(problem.states);
-    problem.varying.push_back({parameter, of.rate});
-    problem.courses.push_back({parameter, of.uncertain.range, of.uncertain.nominal, of.rate});
+void takeCourses(Machine& machine) {
+  SwitchingCourses& switching = machine.motion.switching;
+  for (std::size_t i = 0; i < machine.study.uncertain.size(); ++i) {
+    const UncertainQuantity& of = machine.study.uncertain[i];
+    const int slot = machine.motion.slot[i];
+    if (!of.varies) {
+      machine.constants.push_back({i, slot});
+      continue;
+    }
+    const int parameter = slot - static_cast<int>(machine.states);
+    machine.varying.push_back({parameter, of.rate});
+    machine.courses.push_back({parameter, of.uncertain.range, of.uncertain.nominal, of.rate});
     switching.quantities.push_back(i);
     switching.rates.push_back(of.rate);
   }
-  if (problem.courses.empty()) return;
-  problem.slowest = 2 * std::numbers::pi / study.horizon;
-  problem.fastest = std::max(16 * problem.slowest, 2 * fastestTurn(study.motion.f, problem.motion.nominal));
-  Motion& motion = problem.motion.motion;
+  if (machine.courses.empty()) return;
+  machine.slowest = 2 * std::numbers::pi / machine.study.horizon;
+  machine.fastest = std::max(16 * machine.slowest, 2 * fastestTurn(machine.equations.f, machine.motion.nominal));
+  Motion& motion = machine.motion.motion;
   switching.motion = motion;
   for (Program* program : {&motion.f, &motion.g, &motion.sampled})
-    if (program->outputs() > 0) *program = alongCourses(problem, *program);
+    if (program->outputs() > 0) *program = machine.alongCourses(*program);
 }
 
 /// y = g(p): outputs of the assembly at the configuration p (states, then free parameters).
@@ -59,7 +63,7 @@ Program recordConfiguration(const Study& study, std::size_t states, int numbers)
   const std::vector<Expression> outputs = outputExpressions(study);
   return record(0, numbers, static_cast<int>(outputs.size()), [&](auto, const auto&, const auto& p, auto& y) {
     const std::span<const Recorded> values(p);
-    Assembly<Recorded> assembly(study.mechanism, freeParameters(study), values.subspan(states));
+    Assembly<Recorded> assembly(study.mechanism, freeParametersOf(study), values.subspan(states));
     assembly.setMotion(values.first(states));
     const std::vector<Recorded> found = recordOutputs(assembly, outputs);
     for (std::size_t i = 0; i < found.size(); ++i) y[i] = found[i];
@@ -95,8 +99,7 @@ class MemoryBound {
   rlimit before_{};
 };
 
-void recordAnalysis(Study& study, const std::vector<std::string>& parameters) {
-  Motion& motion = study.motion;
+void recordAnalysis(const Study& study, const std::vector<std::string>& parameters, Motion& motion) {
   if (study.isMotionGiven()) {
     motion.f =
         record(1, static_cast<int>(parameters.size()), [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
@@ -114,6 +117,44 @@ void recordAnalysis(Study& study, const std::vector<std::string>& parameters) {
   }
 }
 
+/// Initial values, then free parameters, and in which of them the uncertain quantities are.
+void takeNumbers(Machine& machine) {
+  const Mechanism& mechanism = machine.study.mechanism;
+  UncertainMotion& motion = machine.motion;
+  const std::vector<std::string> names = mechanism.stateNames();
+  const std::vector<bool> isDifference = mechanism.startsWith(machine.freeParameters);
+  for (const Expression& initial : mechanism.initialState())
+    machine.box.push_back(isDifference[machine.box.size()] ? Interval(0.0) : mechanism.rangeOf(initial));
+  if (machine.study.isMotionGiven()) machine.box.emplace_back(0.0);
+  machine.states = machine.box.size();
+  std::unordered_map<std::string, int> slotOf;
+  for (std::size_t i = 0; i < names.size(); ++i) slotOf[names[i]] = static_cast<int>(i);
+  for (const UncertainQuantity& uncertain : machine.study.uncertain) {
+    const auto state = slotOf.find(uncertain.quantity);
+    motion.uncertain.push_back(uncertain.uncertain);
+    motion.slot.push_back(state != slotOf.end() ? state->second : static_cast<int>(machine.box.size()));
+    if (state == slotOf.end()) machine.box.push_back(mechanism.nominal(uncertain.quantity));
+  }
+  motion.dependence = machine.study.dependence;
+  for (const Interval& value : machine.box) motion.nominal.push_back(midpoint(value));
+  for (std::size_t i = 0; i < motion.uncertain.size(); ++i) {
+    const auto slot = static_cast<std::size_t>(motion.slot[i]);
+    machine.box[slot] = motion.uncertain[i].range;
+    motion.nominal[slot] = motion.uncertain[i].nominal;
+  }
+}
+
+void takeLevels(Machine& machine) {
+  const int levels = machine.study.levels;
+  for (int j = 0; machine.study.asksFor<FuzzyResult>() && j < levels; ++j) {
+    machine.alpha.push_back(levelOf(j, levels));
+    Box& level = machine.levels.emplace_back(machine.box);
+    for (std::size_t i = 0; i < machine.motion.uncertain.size(); ++i)
+      level[static_cast<std::size_t>(machine.motion.slot[i])] =
+          machine.motion.uncertain[i].membership.cut(machine.alpha.back());
+  }
+}
+
 }  // namespace
 
 std::vector<Expression> outputExpressions(const Study& study) {
@@ -127,73 +168,32 @@ Expression WantedOutput::inUnit() const {
   return one.value == 1 && one.piPower == 0 ? expression : expression / Expression(one);
 }
 
-Program alongCourses(const Problem& problem, const Program& program) {
-  return problem.courses.empty() ? program : withCourses(program, problem.courses, problem.slowest, problem.fastest);
-}
-
-void recordPrograms(Study& study) {
-  const double start = processCpuSeconds();
-  const std::vector<std::string> parameters = freeParameters(study);
-  const double most =
-      StatedLimits{}.resolved().memory;  // what a study states is of its runs: it may be read for others
-  try {
-    const MemoryBound bound(most);
-    recordAnalysis(study, parameters);
-  } catch (const std::bad_alloc&) {
-    study.motion = {};
-    throw std::length_error(fmt::format(
-        "the equations of {} {} do not fit into the {:.3g} GB that a run may have", study.mechanism.stateNames().size(),
-        study.analysis == Study::Analysis::dynamics ? "states" : "coordinates", most / 1e9));
-  }
-  Motion& motion = study.motion;
-  motion.outputNames.clear();
+Motion recordedMotion(const Study& study) {
+  Motion motion;
+  motion.times = study.times;
   for (const OutputInfo& output : study.outputs) motion.outputNames.push_back(output.name);
-  study.recordingCpu = processCpuSeconds() - start;
+  try {
+    refuseLengthsOfNothing(study);
+    const MemoryBound bound(StatedLimits{}.resolved().memory);  // what a study states is of its runs
+    recordAnalysis(study, freeParametersOf(study), motion);
+  } catch (...) {
+    refuseMechanism(study);
+  }
+  return motion;
 }
 
-Problem makeProblem(const Study& study) {
-  Problem problem;
-  const Mechanism& mechanism = study.mechanism;
-  const std::vector<std::string> names = mechanism.stateNames();
-  problem.states = names.size();
-  problem.freeParameters = freeParameters(study);
-  problem.motion.motion = study.motion;
-  const std::vector<bool> isDifference = mechanism.startsWith(problem.freeParameters);
-  for (const Expression& initial : mechanism.initialState())
-    problem.box.push_back(isDifference[problem.box.size()] ? Interval(0.0) : mechanism.rangeOf(initial));
-  if (study.isMotionGiven()) {
-    problem.states = 1;
-    problem.box.emplace_back(0.0);
-  }
-  std::unordered_map<std::string, int> slotOf;
-  for (std::size_t i = 0; i < names.size(); ++i) slotOf[names[i]] = static_cast<int>(i);
-  for (const UncertainQuantity& uncertain : study.uncertain) {
-    const auto state = slotOf.find(uncertain.quantity);
-    problem.motion.uncertain.push_back(uncertain.uncertain);
-    if (state != slotOf.end()) {
-      problem.motion.slot.push_back(state->second);
-    } else {
-      problem.motion.slot.push_back(static_cast<int>(problem.box.size()));
-      problem.box.push_back(mechanism.nominal(uncertain.quantity));
-    }
-  }
-  problem.motion.dependence = study.dependence;
-  for (const Interval& value : problem.box) problem.motion.nominal.push_back(midpoint(value));
-  for (std::size_t i = 0; i < study.uncertain.size(); ++i) {
-    const auto slot = static_cast<std::size_t>(problem.motion.slot[i]);
-    problem.box[slot] = study.uncertain[i].uncertain.range;
-    problem.motion.nominal[slot] = study.uncertain[i].uncertain.nominal;
-  }
-  takeCourses(study, problem);
-  for (int j = 0; study.asksFor<FuzzyResult>() && j < study.levels; ++j) {
-    problem.alpha.push_back(levelOf(j, study.levels));
-    Box level = problem.box;
-    for (std::size_t i = 0; i < study.uncertain.size(); ++i)
-      level[static_cast<std::size_t>(problem.motion.slot[i])] =
-          study.uncertain[i].uncertain.membership.cut(problem.alpha.back());
-    problem.levels.push_back(std::move(level));
-  }
-  return problem;
+Machine::Machine(Study of) : study(std::move(of)), freeParameters(freeParametersOf(study)) {
+  const double start = processCpuSeconds();
+  equations = recordedMotion(study);
+  cpu = processCpuSeconds() - start;
+  motion.motion = equations;
+  takeNumbers(*this);
+  takeCourses(*this);
+  takeLevels(*this);
+}
+
+Program Machine::alongCourses(const Program& program) const {
+  return courses.empty() ? program : withCourses(program, courses, slowest, fastest);
 }
 
 }  // namespace gamut

@@ -1,0 +1,56 @@
+// The machine that a study describes, as programs: recorded once, and what of their numbers is uncertain, and how.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "analyses/flow/flow.hpp"
+#include "analyses/samples/courses.hpp"
+#include "analyses/samples/ensemble.hpp"
+#include "analyses/uncertainty.hpp"
+#include "scalars/program/program.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+
+/// An uncertain quantity that is constant.
+struct ConstantQuantity {
+  std::size_t number;  ///< among the study's uncertain quantities
+  int slot;            ///< its place among the numbers that programs take
+};
+
+/// Programs of a study take initial values, then free parameters: the uncertain quantities that no state starts with.
+/// All other numbers are constants of the programs. In kinematics, programs have no states: these are parameters too.
+struct Machine {
+  /// Records the study's mechanism. Throws StudyError, with the place in its file, for a mechanism whose motion is not
+  /// determined, or something of which has no value or finds no room: the equations of n joints in a chain take some
+  /// 1100 n² bytes.
+  explicit Machine(Study of);
+
+  Study study;
+  double cpu = 0;  ///< s, that recording took
+  std::size_t states = 0;
+  std::vector<std::string> freeParameters;
+  Motion equations;           ///< what varies in time is a parameter of them; kinematics: g of parameters alone
+  Box box;                    ///< initial values, then free parameters; uncertain ones have their ranges
+  std::vector<double> alpha;  ///< membership levels, 0 first; empty unless alpha-cuts are asked for
+  std::vector<Box> levels;    ///< the box with the alpha-cuts of the uncertain quantities, one a level
+  std::vector<ConstantQuantity> constants;  ///< those that do not vary in time
+  std::vector<VaryingParameter> varying;    ///< free parameters that vary in time
+  std::vector<VaryingQuantity> courses;     ///< what of them the samples take, turning no slower and no faster than so
+  double slowest = 0, fastest = 0;          ///< rad/s
+  UncertainMotion motion;  ///< the equations as samples follow them: what varies in time takes the course that its
+                           ///< number chooses
+
+  /// A program of states and free parameters as samples follow it: what varies in time takes its course.
+  Program alongCourses(const Program& program) const;
+};
+
+/// The programs of a study's mechanism, as Machine::equations; throws as Machine does.
+Motion recordedMotion(const Study& study);
+
+/// What is looked at, each in its unit.
+std::vector<Expression> outputExpressions(const Study& study);
+
+}  // namespace gamut

@@ -1,0 +1,142 @@
+// What recording says without a place is looked for in the mechanism's numbers, then in its inertia.
+#include "studies/machine_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "mechanics/assembly.hpp"
+#include "mechanics/description/unfit_part.hpp"
+#include "mechanics/model.hpp"
+#include "scalars/recorded.hpp"
+#include "studies/printable.hpp"
+
+namespace gamut {
+namespace {
+
+[[noreturn]] void refuse(const std::string& place, std::string what, const std::string& expected) {
+  std::ranges::replace(what, ';', ',');  // one line has one semicolon, in front of what was expected
+  throw StudyError(complaintAt(place, what, expected));
+}
+
+/// Of a number in recorded equations: the quantities that are open have these values, all others are constant.
+Recorded valueOf(const Mechanism& mechanism, const Expression& number, const std::vector<std::string>& open,
+                 const std::vector<Recorded>& values) {
+  return number.evaluate<Recorded>([&](const std::string& name) -> Recorded {
+    const auto found = std::ranges::find(open, name);
+    if (found != open.end()) return values[static_cast<std::size_t>(found - open.begin())];
+    const Mechanism::Derived* derived = mechanism.derived().find(name);
+    return derived != nullptr ? valueOf(mechanism, derived->formula, open, values)
+                              : constant<Recorded>(mechanism.nominal(name));
+  });
+}
+
+/// The first number of the mechanism that has no value, as one that is divided by 0.
+void refuseNumberWithoutValue(const Study& study) {
+  std::vector<std::string> open = study.mechanism.outputQuantities();
+  open.emplace_back("t");
+  for (const UncertainQuantity& uncertain : study.uncertain) open.push_back(uncertain.quantity);
+  for (const StudyPlaces::Formula& formula : study.places.formulas) try {
+      record(0, static_cast<int>(open.size()), 1, [&](auto, const auto&, const auto& p, auto& y) {
+        y[0] = valueOf(study.mechanism, formula.number, open, p);
+      });
+    } catch (const std::domain_error& error) {
+      refuse(formula.place, fmt::format("'{}' has no value: {}", formula.name, error.what()),
+             "a formula that has a value");
+    }
+}
+
+/// By Cholesky's factors of the inertia matrix at the start: the first speed that moves all inertia as others before it
+/// do together, and the share of each in that; none where there is no such speed.
+std::vector<double> sharesOfFirstAlike(const Study& study) {
+  constexpr double nothing = 1e-10;  // of an entry of the diagonal
+  Assembly<double> assembly(study.mechanism);
+  const auto inertia = assembly.system().inertiaMatrix();
+  const auto n = static_cast<std::size_t>(inertia.rows());
+  std::vector<std::vector<double>> factor(n, std::vector<double>(n, 0.0));
+  const auto entry = [&](std::size_t i, std::size_t j) {
+    return inertia(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  };
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = 0; i <= j; ++i) {
+      double rest = entry(j, i);
+      for (std::size_t k = 0; k < i; ++k) rest -= factor[i][k] * factor[j][k];
+      factor[j][i] = i < j ? rest / factor[i][i] : rest;
+    }
+    if (factor[j][j] > nothing * entry(j, j)) {
+      factor[j][j] = std::sqrt(factor[j][j]);
+      continue;
+    }
+    std::vector<double> share(j);
+    for (std::size_t i = j; i-- > 0;) {
+      share[i] = factor[j][i];
+      for (std::size_t k = i + 1; k < j; ++k) share[i] -= factor[k][i] * share[k];
+      share[i] /= factor[i][i];
+    }
+    return share;
+  }
+  return {};
+}
+
+/// Where a motion is not determined, this is why.
+void refuseJointsAlike(const Study& study) {
+  constexpr double some = 1e-6;  // of a factor
+  if (study.analysis != Study::Analysis::dynamics) return;
+  const Mechanism& m = study.mechanism;
+  const std::vector<double> share = sharesOfFirstAlike(study);
+  const auto name = [&](std::size_t i) { return m.stateNames()[m.positions() + i]; };
+  std::string others;
+  for (std::size_t i = 0; i < share.size(); ++i)
+    if (std::abs(share[i]) > some) others += fmt::format("{}'{}'", others.empty() ? "" : ", ", name(i));
+  if (others.empty()) return;
+  const std::string alike = name(share.size());
+  const Mechanism::JointCoordinate* coordinate = m.coordinateWith(alike);
+  refuse(study.places.of(coordinate == nullptr ? alike : coordinate->element),
+         fmt::format("'{}' moves all masses as {} {}, so that the motion is not determined", alike, others,
+                     others.find(',') == std::string::npos ? "does" : "do together"),
+         "joints that move masses in different ways (hinges on one axis turn what is between them, which needs "
+         "inertia)");
+}
+
+}  // namespace
+
+void refuseLengthsOfNothing(const Study& study) {
+  const Assembly<double> assembly(study.mechanism);
+  for (const Described& element : study.mechanism.elements()) {
+    const std::string length = element.name() + ".length";
+    if (study.mechanism.isOutputQuantity(length) && assembly.output(length) == 0)
+      refuse(study.places.of(element.name()),
+             fmt::format("the {} '{}' has no length at the start", element.type(), element.name()),
+             "points that lie apart");
+  }
+}
+
+void refuseMechanism(const Study& study) try { throw; } catch (const UndefinedOutput& error) {
+  refuse(study.places.outputs[error.output()],
+         fmt::format("'{}' {}", study.outputs[error.output()].quantity, error.what()), "a formula that has a value");
+} catch (const std::domain_error& error) {
+  refuseNumberWithoutValue(study);
+  refuse(study.places.mechanism, error.what(), "a mechanism in which all that is measured has a value");
+} catch (const std::bad_alloc&) {
+  refuse(study.places.mechanism,
+         fmt::format("the equations of {} {} do not fit into the {:.3g} GB that a run may have",
+                     study.mechanism.stateNames().size(),
+                     study.analysis == Study::Analysis::dynamics ? "states" : "coordinates",
+                     StatedLimits{}.resolved().memory / 1e9),
+         "fewer joints one behind the other: what they do to each other grows with the square of their number");
+} catch (const UnfitPart& error) {
+  refuse(study.places.of(error.part()), error.problem(), error.expected());
+} catch (const std::invalid_argument& error) {
+  refuseNumberWithoutValue(study);
+  refuseJointsAlike(study);
+  refuse(study.places.mechanism, error.what(),
+         "a mass that every joint moves, and joints that move it in different ways");
+}
+
+}  // namespace gamut

@@ -1,0 +1,16 @@
+// Why a study's mechanism cannot be moved, with the place in the study's file.
+#pragma once
+
+#include "studies/study.hpp"
+
+namespace gamut {
+
+/// Throws StudyError where points between which a length is measured lie together at the start, so that its direction
+/// is not determined.
+void refuseLengthsOfNothing(const Study& study);
+
+/// While an exception is handled that recording the study's mechanism threw: throws the StudyError that it means, or
+/// that exception again.
+[[noreturn]] void refuseMechanism(const Study& study);
+
+}  // namespace gamut
