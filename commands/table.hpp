@@ -35,6 +35,7 @@ Action sample(CLI::App& command);
 Action tolerance(CLI::App& command);
 Action newStudy(CLI::App& command);
 Action quantities(CLI::App& command);
+Action schema(CLI::App& command);
 
 inline constexpr Command table[] = {
     {"new", "Write a study to start from, which explains itself", newStudy},
@@ -49,6 +50,7 @@ inline constexpr Command table[] = {
     {"info", "What a results file holds and where it comes from; or the tree of a robot (URDF)", info},
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},
     {"sample", "Many samples of outputs without integrating, each with its proved error", sample},
+    {"schema", "What a study file may hold, as JSON Schema: for editors, which complete and check it", schema},
 };
 
 }  // namespace commands

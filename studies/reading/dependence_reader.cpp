@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mechanics/description/names.hpp"
+#include "studies/reading/settings_reader.hpp"
 
 namespace gamut {
 namespace {
@@ -18,7 +19,7 @@ class DependenceReader {
   DependenceReader(const TomlSource& source, Study& study) : source_(source), study_(study) {}
 
   void read(const toml::table& table) {
-    const TomlSection section(source_, table, "dependence", {"quantities", "rank_correlation", "unknown"});
+    const TomlSection section = readSettings(source_, table, "dependence", study_);
     const std::vector<std::size_t> quantities = quantitiesOf(section);
     const toml::node *rank = section.find("rank_correlation"), *unknown = section.find("unknown");
     if ((rank == nullptr) == (unknown == nullptr))

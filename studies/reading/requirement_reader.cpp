@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "mechanics/description/written_units.hpp"
+#include "studies/reading/settings_reader.hpp"
 #include "studies/reading/uncertain_reader.hpp"
 
 namespace gamut {
@@ -42,7 +43,7 @@ class RequirementReader {
       : source_(source), study_(study), nodes_(nodes), outputs_(study.outputs) {}
 
   void read(const toml::table& table) {
-    const TomlSection section(source_, table, "requirement", {"name", "always", "eventually", "from", "until"});
+    const TomlSection section = readSettings(source_, table, "requirement", study_);
     const toml::node *always = section.find("always"), *eventually = section.find("eventually");
     if (always != nullptr && eventually != nullptr)
       source_.fail(*eventually, "requirement.always and requirement.eventually are both given", "one of them");
@@ -75,8 +76,6 @@ class RequirementReader {
       const toml::node* node = section.find(key);
       if (node == nullptr) continue;
       const std::string name = section.nameOf(key);
-      if (study_.analysis == Study::Analysis::kinematics)
-        source_.fail(*node, name + " has no meaning in kinematics", "no such key");
       const double time = nearest(source_.asAmount(*node, name, seconds));
       if (!(time >= 0 && time <= study_.horizon))
         source_.fail(*node, fmt::format("{} is {} s, outside the study's time", name, time),

@@ -23,15 +23,17 @@
 #include "studies/reading/frequency_notes.hpp"
 #include "studies/reading/mechanism_reader.hpp"
 #include "studies/reading/requirement_reader.hpp"
+#include "studies/reading/settings_reader.hpp"
 #include "studies/reading/toml_source.hpp"
 #include "studies/reading/uncertain_reader.hpp"
 #include "studies/results/results.hpp"
+#include "studies/settings.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
 namespace {
 
-constexpr Dimension seconds{0, 0, 1, 0}, gigabytes{0, 0, 0, 0, 1};
+constexpr Dimension seconds{0, 0, 1, 0};
 constexpr double gigabyte = 1e9;
 
 class StudyReader {
@@ -42,9 +44,10 @@ class StudyReader {
   }
 
   Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files) {
-    const TomlSection file(source_, source_.root(), "",
-                           {"study", "mechanism", "uncertain", "dependence", "output", "requirement", "interval",
-                            "stochastic", "distribution", "sensitivity", "fuzzy", "limits"});
+    std::vector<std::string> names;
+    for (const StudySection& section : studySections()) names.emplace_back(section.name);
+    names.insert(names.begin() + 1, "mechanism");
+    const TomlSection file(source_, source_.root(), "", std::move(names));
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
     source_.setNames(namesStatedIn(source_));
     ReadMechanism read = readMechanism(
@@ -64,17 +67,18 @@ class StudyReader {
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
     readRequirements(source_, tables(file, "requirement"), study_, outputNodes_);
     if (const toml::node* node = file.find("distribution")) readDistribution(source_.asTable(*node, "distribution"));
-    if (const toml::node* node = file.find("sensitivity")) readSensitivity(source_.asTable(*node, "sensitivity"));
     checkInitialValues();
     checkEnds();
     checkSomethingMoves(*file.find("mechanism"));
     notePlaces(*file.find("mechanism"));
-    if (const toml::node* node = file.find("interval")) readInterval(source_.asTable(*node, "interval"));
-    if (const toml::node* node = file.find("stochastic")) readStochastic(source_.asTable(*node, "stochastic"));
-    checkPlan(file.find("stochastic"));
     study_.ensemble.transformation = Transformation::extended;
-    if (const toml::node* node = file.find("fuzzy")) readFuzzy(source_.asTable(*node, "fuzzy"));
-    if (const toml::node* node = file.find("limits")) readLimits(source_.asTable(*node, "limits"));
+    for (const char* name : {"interval", "stochastic", "sensitivity", "fuzzy"})
+      if (const toml::node* node = file.find(name)) readSettings(source_, source_.asTable(*node, name), name, study_);
+    checkPlan(file.find("stochastic"));
+    checkDerivatives(file.find("sensitivity"));
+    checkGeneralMethod(file.find("fuzzy"));
+    if (const toml::node* node = file.find("limits"))
+      checkLimits(readSettings(source_, source_.asTable(*node, "limits"), "limits", study_));
     return std::move(study_);
   }
 
@@ -94,8 +98,8 @@ class StudyReader {
   // ---- [study] ------------------------------------------------------------------------------------------------------
 
   void readStudyTable(const toml::table& table) {
-    const TomlSection section(source_, table, "study",
-                              {"title", "analysis", "horizon", "output_step", "output_times", "compare"});
+    study_.analysis = Study::Analysis::dynamics;  // until it is known, all keys have a meaning
+    const TomlSection section = readSettings(source_, table, "study", study_);
     study_.title = section.text("title", printable(std::filesystem::path(study_.file).stem().string()));
     const toml::node& analysis = section.require("analysis", "\"dynamics\", \"inverse-dynamics\" or \"kinematics\"");
     const std::string word =
@@ -104,20 +108,12 @@ class StudyReader {
       study_.analysis = each;
       if (study_.analysisName() == word) break;
     }
-    if (study_.analysis != Study::Analysis::kinematics) {
-      readTimes(section);
-    } else {
-      refuse(section, {"horizon", "output_step", "output_times"});
+    readSettings(source_, table, "study", study_);
+    if (study_.analysis == Study::Analysis::kinematics)
       study_.times = {0.0};
-    }
+    else
+      readTimes(section);
     readCompare(section);
-  }
-
-  /// What only a motion has.
-  void refuse(const TomlSection& section, std::initializer_list<std::string_view> keys) const {
-    for (const std::string_view key : keys)
-      if (const toml::node* node = section.find(key))
-        source_.fail(*node, fmt::format("{} has no meaning in kinematics", section.nameOf(key)), "no such key");
   }
 
   void readCompare(const TomlSection& section) {
@@ -338,7 +334,7 @@ class StudyReader {
   }
 
   void readOutput(const toml::table& table) {
-    const TomlSection section(source_, table, "output", {"name", "quantity", "unit", "resolution", "tightness"});
+    const TomlSection section = readSettings(source_, table, "output", study_);
     const toml::node& node = section.require("quantity", "what is wanted, such as \"tip.position.z\" or \"energy\"");
     const std::string quantity = source_.asText(node, "output.quantity");
     const Expression expression = outputExpression(node, quantity);
@@ -353,8 +349,6 @@ class StudyReader {
     WantedOutput output{{name, quantity, unit}, expression};
     if (const toml::node* stated = section.find("resolution")) output.resolution = resolutionOf(*stated, unit);
     if (const toml::node* stated = section.find("tightness")) {
-      if (study_.analysis == Study::Analysis::kinematics)
-        source_.fail(*stated, "output.tightness has no meaning in kinematics", "no such key");
       output.tightness = nearest(source_.asAmount(*stated, "output.tightness", {}));
       if (!(output.tightness > 1 && std::isfinite(output.tightness)))
         source_.fail(*stated, fmt::format("output.tightness is {}", output.tightness),
@@ -374,73 +368,7 @@ class StudyReader {
     return resolution;
   }
 
-  // ---- [interval], [stochastic], [distribution], [fuzzy], [limits]
-  // ------------------------------------------------------------------
-
-  /// A whole number, or "auto" for the default.
-  int integerOrAuto(const TomlSection& section, std::string_view key, int otherwise, int least, int most) const {
-    const toml::node* node = section.find(key);
-    if (node == nullptr || (node->is_string() && node->as_string()->get() == "auto")) return otherwise;
-    if (!node->is_integer())
-      source_.fail(*node, fmt::format("{} is neither a whole number nor \"auto\"", section.nameOf(key)),
-                   fmt::format("\"auto\" or a whole number between {} and {}", least, most));
-    return static_cast<int>(section.integer(key, otherwise, least, most));
-  }
-
-  void readInterval(const toml::table& table) {
-    const TomlSection section(source_, table, "interval",
-                              {"tightness", "tolerance", "order", "degree", "split", "max_pieces"});
-    if (study_.analysis == Study::Analysis::kinematics)
-      refuse(section, {"tightness", "tolerance", "order", "split", "max_pieces"});
-    FlowOptions& flow = study_.flow;
-    if (const toml::node* tightness = section.find("tightness")) {
-      flow.tightness = nearest(source_.asAmount(*tightness, "interval.tightness", Dimension{}));
-      if (!(flow.tightness > 1))
-        source_.fail(*tightness, "interval.tightness is not above 1",
-                     "the overestimation that is aimed at, such as 1.02");
-    }
-    flow.tolerance = section.positive("tolerance", flow.tolerance);
-    if (flow.tolerance > 1) source_.fail(*section.find("tolerance"), "interval.tolerance is above 1", "a small number");
-    flow.order = integerOrAuto(section, "order", flow.order, 4, 30);
-    flow.degree = integerOrAuto(section, "degree", flow.degree, 1, 30);
-    const toml::node* split = section.find("split");
-    if (split != nullptr && !(split->is_string() && split->as_string()->get() == "auto"))
-      flow.split = section.flag("split", flow.split);
-    flow.maxPieces = static_cast<int>(section.integer("max_pieces", flow.maxPieces, 1, 1000000));
-  }
-
-  /// What may be kept of something in the results, bytes.
-  double storage(const TomlSection& section, double otherwise) const {
-    const toml::node* node = section.find("storage");
-    if (node == nullptr) return otherwise;
-    const double bytes = gigabyte * nearest(source_.asAmount(*node, section.nameOf("storage"), gigabytes));
-    if (!(bytes >= 0 && bytes <= gigabyte))
-      source_.fail(*node, section.nameOf("storage") + " is not between 0 and 1 GB", "a size such as \"64 MB\"");
-    return bytes;
-  }
-
-  void readStochastic(const toml::table& table) {
-    const TomlSection section(source_, table, "stochastic",
-                              {"samples", "plan", "seed", "tolerance", "method", "storage"});
-    EnsembleOptions& ensemble = study_.ensemble;
-    ensemble.samples =
-        static_cast<std::size_t>(section.integer("samples", static_cast<std::int64_t>(ensemble.samples), 1, 10000000));
-    if (const toml::node* node = section.find("plan"))
-      ensemble.plan = planNamed(
-          source_.asChoice(*node, "stochastic.plan", {"sobol", "random", "latin-hypercube", "halton", "grid"}));
-    ensemble.seed = static_cast<std::uint64_t>(
-        section.integer("seed", static_cast<std::int64_t>(ensemble.seed), 0, std::numeric_limits<std::int64_t>::max()));
-    if (const toml::node* node = section.find("method"))
-      ensemble.method =
-          source_.asChoice(*node, "stochastic.method", {"adams", "bdf"}) == "bdf" ? Method::bdf : Method::adams;
-    study_.storage = storage(section, study_.storage);
-    const toml::node* node = section.find("tolerance");
-    if (node == nullptr) return;
-    const TomlSection tolerance(source_, source_.asTable(*node, "stochastic.tolerance"), "stochastic.tolerance",
-                                {"relative", "absolute"});
-    ensemble.tolerance.relative = tolerance.positive("relative", ensemble.tolerance.relative);
-    ensemble.tolerance.absolute = tolerance.positive("absolute", ensemble.tolerance.absolute);
-  }
+  // ---- What other sections say together ---------------------------------------------------------------------------
 
   /// Not every plan serves every number of quantities.
   void checkPlan(const toml::node* stochastic) const {
@@ -453,26 +381,17 @@ class StudyReader {
     }
   }
 
-  void readSensitivity(const toml::table& table) {
-    const TomlSection section(source_, table, "sensitivity", {"derivatives"});
-    study_.derivatives = section.flag("derivatives", false);
+  void checkDerivatives(const toml::node* sensitivity) const {
     if (study_.derivatives && study_.analysis != Study::Analysis::dynamics)
-      source_.fail(*section.find("derivatives"), "derivatives are enclosed in dynamics alone", "no such key");
+      source_.fail(*sensitivity->as_table()->get("derivatives"), "derivatives are enclosed in dynamics alone",
+                   "no such key");
   }
 
   void readDistribution(const toml::table& table) {
-    const TomlSection section(source_, table, "distribution", {"times", "gap", "storage"});
+    const TomlSection section = readSettings(source_, table, "distribution", study_);
     DistributionPlan& plan = study_.distribution;
-    plan.storage = storage(section, plan.storage);
-    if (const toml::node* node = section.find("gap")) {
-      plan.gap = nearest(source_.asAmount(*node, "distribution.gap", Dimension{}));
-      if (!(plan.gap >= 0.001 && plan.gap <= 1))
-        source_.fail(*node, "distribution.gap is not between 0.001 and 1",
-                     "a difference of probabilities, such as 0.005");
-    }
     const toml::node* times = section.find("times");
     if (times == nullptr) return;
-    if (study_.analysis == Study::Analysis::kinematics) refuse(section, {"times"});
     if (!times->is_array()) {
       plan.count = static_cast<std::size_t>(section.integer("times", 0, 0, 1000));
       return;
@@ -490,19 +409,11 @@ class StudyReader {
     plan.count = plan.times.size();
   }
 
-  void readFuzzy(const toml::table& table) {
-    const TomlSection section(source_, table, "fuzzy", {"levels", "method"});
-    study_.levels = static_cast<int>(section.integer("levels", study_.levels, 2, 101));
-    const toml::node* node = section.find("method");
-    if (node == nullptr) return;
-    study_.ensemble.transformation =
-        transformationNamed(source_.asChoice(*node, "fuzzy.method", {"reduced", "general", "extended"}));
-    if (study_.ensemble.transformation == Transformation::general) checkGeneralMethod(*node);
-  }
-
   /// Its points are all combinations of values.
-  void checkGeneralMethod(const toml::node& at) const {
-    if (!study_.asksFor<FuzzyResult>() || !study_.asksFor<StochasticResult>()) return;
+  void checkGeneralMethod(const toml::node* fuzzy) const {
+    if (study_.ensemble.transformation != Transformation::general || !study_.asksFor<FuzzyResult>() ||
+        !study_.asksFor<StochasticResult>())
+      return;
     const auto countOf = [&](int levels) {
       std::vector<Box> cuts;
       for (int level = 0; level < levels; ++level) {
@@ -518,40 +429,14 @@ class StudyReader {
     int levels = study_.levels - 1;
     while (levels >= 3 && countOf(levels) > most) --levels;  // of two levels there is nothing inside
     source_.fail(
-        at,
+        *fuzzy->as_table()->get("method"),
         fmt::format("fuzzy.method \"general\" takes {:.6g} points of {} quantities at {} levels, and {} are the most",
                     points, study_.uncertain.size(), study_.levels, mostGeneralPoints),
         levels >= 3 ? fmt::format("\"extended\", \"reduced\", or fuzzy.levels of {} at most", levels)
                     : "\"extended\" or \"reduced\"");
   }
 
-  void readLimits(const toml::table& table) {
-    const TomlSection section(source_, table, "limits",
-                              {"time", "memory", "enclosure_time", "enclosure_memory", "sample_time", "cuts",
-                               "requirements", "probabilities", "advice", "derivatives"});
-    const auto limit = [&](std::string_view key, const Dimension& dimension, double scale) -> std::optional<double> {
-      const toml::node* node = section.find(key);
-      if (node == nullptr) return std::nullopt;
-      const double value = nearest(source_.asAmount(*node, section.nameOf(key), dimension));
-      if (!(value > 0)) source_.fail(*node, section.nameOf(key) + " is not positive", "a number above 0");
-      return scale * value;
-    };
-    study_.limits = {limit("time", seconds, 1), limit("memory", gigabytes, gigabyte),
-                     limit("enclosure_time", seconds, 1), limit("enclosure_memory", gigabytes, gigabyte),
-                     limit("sample_time", seconds, 1)};
-    const auto share = [&](std::string_view key, double& of) {
-      const toml::node* node = section.find(key);
-      if (node == nullptr) return;
-      of = nearest(source_.asAmount(*node, section.nameOf(key), Dimension{}));
-      if (!(of >= 0) || !std::isfinite(of))
-        source_.fail(*node, section.nameOf(key) + " is negative, or no number",
-                     "how many times what enclosure and samples cost, such as 2");
-    };
-    share("cuts", study_.shares.cuts);
-    share("requirements", study_.shares.requirements);
-    share("probabilities", study_.shares.probabilities);
-    share("advice", study_.shares.advice);
-    share("derivatives", study_.shares.derivatives);
+  void checkLimits(const TomlSection& section) const {
     const StatedLimits& limits = study_.limits;
     if (limits.enclosureTime.value_or(0) > limits.resolved().time)
       refusePart(section, "enclosure_time", "time", fmt::format("{:.12g} s", *limits.enclosureTime),

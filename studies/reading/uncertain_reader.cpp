@@ -13,6 +13,7 @@
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/written_units.hpp"
 #include "studies/printable.hpp"
+#include "studies/reading/settings_reader.hpp"
 #include "studies/reading/shape_reader.hpp"
 #include "studies/words.hpp"
 
@@ -58,8 +59,7 @@ class UncertainReader {
       : source_(source), files_(files), places_(places), study_(study) {}
 
   void read(const toml::table& table) {
-    const TomlSection section(source_, table, "uncertain",
-                              {"name", "quantity", "interval", "distribution", "membership", "varies", "rate"});
+    const TomlSection section = readSettings(source_, table, "uncertain", study_);
     const toml::node& node = section.require("quantity", "the number that is uncertain, such as \"shoulder.angle\"");
     const std::vector<std::pair<const toml::node*, std::string>> quantities = quantitiesAt(node);
     if (quantities.size() > 1)

@@ -1133,8 +1133,8 @@ constexpr BadStudy badStudies[] = {
      "s.toml:31:12: uncertain.interval is neither text nor a list; expected \"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or "
      "[lower, upper]"},
     {"interval = \"± 1 %\"", "tolerance = \"± 1 %\"",
-     "s.toml:31:1: unknown key 'tolerance' in [uncertain]; expected 'interval'? (one of: name, quantity, interval, "
-     "distribution, membership, varies, rate)"},
+     "s.toml:31:1: unknown key 'tolerance' in [uncertain]; expected 'interval'? (one of: quantity, name, interval, "
+     "distribution, varies, rate, membership)"},
     {"interval = \"± 1 %\"", "interval = [0.4, 0.6, 0.7]",
      "s.toml:31:12: uncertain.interval has 3 numbers; expected two, [lower, upper]"},
     {"interval = \"± 1 %\"", "interval = \"+1 / +2 mm\"",

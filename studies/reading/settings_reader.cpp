@@ -1,0 +1,86 @@
+// Settings as the file has them: what is not there stays as it was.
+#include "studies/reading/settings_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "studies/settings.hpp"
+
+namespace gamut {
+namespace {
+
+class SettingsReader final : public Settings {
+ public:
+  SettingsReader(const TomlSection& section, bool isMotion)
+      : source_(section.source()), section_(section), isMotion_(isMotion) {}
+
+  void any(const Key& key) override { find(key); }
+
+  void flag(const Key& key, bool& value, bool allowsAuto) override {
+    if (const toml::node* node = find(key); node != nullptr && !(allowsAuto && isAuto(*node)))
+      value = source_.asBool(*node, section_.nameOf(key.name));
+  }
+
+  void number(const Key& key, const NumberOf& of, double& value) override {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    const std::string name = section_.nameOf(key.name);
+    const double stated = of.scale * nearest(source_.asAmount(*node, name, dimensionOf(of.unit)));
+    if (!of.allows(stated)) source_.fail(*node, fmt::format("{} {}", name, of.fault), of.expected);
+    value = stated;
+  }
+
+  void integer(const Key& key, std::int64_t least, std::int64_t most, bool allowsAuto, std::int64_t& value) override {
+    const toml::node* node = find(key);
+    if (node == nullptr || (allowsAuto && isAuto(*node))) return;
+    const std::string name = section_.nameOf(key.name);
+    if (allowsAuto && !node->is_integer())
+      source_.fail(*node, fmt::format("{} is neither a whole number nor \"auto\"", name),
+                   fmt::format("\"auto\" or a whole number between {} and {}", least, most));
+    value = source_.asInteger(*node, name, least, most);
+  }
+
+  void choice(const Key& key, const std::vector<std::string>& words,
+              const std::function<void(const std::string&)>& take) override {
+    if (const toml::node* node = find(key)) take(source_.asChoice(*node, section_.nameOf(key.name), words));
+  }
+
+  void table(const Key& key, const std::function<void(Settings&)>& describe) override {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    const std::string name = section_.nameOf(key.name);
+    const TomlSection within(source_, source_.asTable(*node, name), name, keysOf(describe));
+    SettingsReader reader(within, isMotion_);
+    describe(reader);
+  }
+
+ private:
+  static bool isAuto(const toml::node& node) { return node.is_string() && node.as_string()->get() == "auto"; }
+
+  const toml::node* find(const Key& key) const {
+    const toml::node* node = section_.find(key.name);
+    if (node != nullptr && key.isOfMotion && !isMotion_)
+      source_.fail(*node, fmt::format("{} has no meaning in kinematics", section_.nameOf(key.name)), "no such key");
+    return node;
+  }
+
+  const TomlSource& source_;
+  const TomlSection& section_;
+  bool isMotion_;
+};
+
+}  // namespace
+
+TomlSection readSettings(const TomlSource& source, const toml::table& table, std::string_view name, Study& study) {
+  const StudySection& words = studySection(name);
+  TomlSection section(source, table, words.name, keysOf([&](Settings& settings) { words.describe(settings, study); }));
+  SettingsReader reader(section, study.analysis != Study::Analysis::kinematics);
+  words.describe(reader, study);
+  return section;
+}
+
+}  // namespace gamut

@@ -1,0 +1,95 @@
+// Sections of study files as they describe themselves: in the guide, in the schema, as the reader takes them.
+#include <gmock/gmock.h>
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "studies/schema.hpp"
+#include "studies/settings.hpp"
+#include "tests/studies/sample_study.hpp"
+
+namespace gamut {
+namespace {
+
+std::string textIn(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+TEST(StudySections, AreWhatTheGuideShows) {
+  const std::string guide = textIn(GAMUT_SOURCE_DIR "/docs/study-file.md");
+  for (const StudySection& section : studySections()) {
+    const bool isOfSeveral = testing::Matches(
+        testing::AnyOf("interval", "stochastic", "distribution", "sensitivity", "fuzzy"))(std::string(section.name));
+    const std::string rows = guideTo(section.name, isOfSeveral ? section.name + std::string(".") : "");
+    EXPECT_NE(guide.find(rows), std::string::npos) << "docs/study-file.md needs\n" << rows;
+  }
+}
+
+/// Whether a validator of JSON Schema that is not ours finds nothing wrong.
+bool isValid(const std::string& study) {
+  static const valijson::Schema* const schema = [] {
+    auto* parsed = new valijson::Schema;  // lives as long as the program
+    static const nlohmann::json text = nlohmann::json::parse(studySchema());
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+        .populateSchema(valijson::adapters::NlohmannJsonAdapter(text), *parsed);
+    return parsed;
+  }();
+  std::ostringstream text;
+  text << toml::json_formatter(toml::parse(study));
+  const nlohmann::json json = nlohmann::json::parse(text.str());
+  return valijson::Validator().validate(*schema, valijson::adapters::NlohmannJsonAdapter(json), nullptr);
+}
+
+TEST(StudySchema, AllowsAllThatIsShipped) {
+  for (const auto& folder : std::filesystem::directory_iterator(GAMUT_SOURCE_DIR "/studies/examples"))
+    EXPECT_TRUE(isValid(textIn(folder.path() / "study.toml"))) << folder.path();
+  EXPECT_TRUE(isValid(sampleStudy));
+}
+
+struct Change {
+  std::string what, old, instead;
+};
+
+class StudySchemaRefuses : public testing::TestWithParam<Change> {};
+
+TEST_P(StudySchemaRefuses, WhatTheReaderRefuses) {
+  const std::string changed = sampleStudyWith(GetParam().old, GetParam().instead);
+  EXPECT_FALSE(isValid(changed));
+  EXPECT_NE(messageOf(changed), "it was read");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, StudySchemaRefuses,
+    testing::Values(Change{"unknownSection", "[stochastic]", "[stochastics]"},
+                    Change{"unknownKey", "seed = 7", "sede = 7"},
+                    Change{"unknownKeyOfAnOutput", "name = \"angle\"", "nmae = \"angle\""},
+                    Change{"numberOutsideItsRange", "samples = 16", "samples = 0"},
+                    Change{"textForAWholeNumber", "samples = 16", "samples = \"many\""},
+                    Change{"unknownWord", "plan = \"sobol\"", "plan = \"sobel\""},
+                    Change{"numberNotAbove", "[stochastic]", "[interval]\ntightness = 1\n[stochastic]"},
+                    Change{"limitOfZero", "[stochastic]", "[limits]\ntime = 0\n[stochastic]"},
+                    Change{"listTwice", "[\"interval\", \"stochastic\", \"fuzzy\"]", "[\"interval\", \"interval\"]"},
+                    Change{"missing", "analysis = \"dynamics\"\n", ""},
+                    Change{"unknownElement", "type = \"revolute\"", "type = \"revolut\""},
+                    Change{"unknownKeyOfAnElement", "axis = \"x\"", "aksis = \"x\""},
+                    Change{"unknownInitialValue", "initial = { angle", "initial = { angel"}),
+    [](const auto& test) { return test.param.what; });
+
+/// What the schema cannot know is left to the reader.
+TEST(StudySchema, AllowsAutoAndTextsWithUnits) {
+  EXPECT_TRUE(isValid(sampleStudyWith("[stochastic]", "[interval]\norder = \"auto\"\nsplit = \"auto\"\n[stochastic]")));
+  EXPECT_TRUE(isValid(sampleStudyWith("[stochastic]", "[limits]\nmemory = \"500 MB\"\n[stochastic]")));
+  EXPECT_TRUE(isValid(sampleStudyWith("horizon = 0.5", "horizon = \"500 ms\"")));
+}
+
+}  // namespace
+}  // namespace gamut
