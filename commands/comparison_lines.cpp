@@ -10,7 +10,7 @@
 #include <cstdlib>
 
 #include "commands/contradiction_lines.hpp"
-#include "studies/text_table.hpp"
+#include "reports/text_table.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {

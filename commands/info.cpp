@@ -9,9 +9,9 @@
 #include "commands/robot_texts.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
+#include "reports/summary.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/robot.hpp"
-#include "studies/summary.hpp"
 
 namespace gamut::commands {
 namespace {

@@ -17,8 +17,8 @@
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
 #include "mechanics/assembly.hpp"
+#include "reports/text_table.hpp"
 #include "studies/study.hpp"
-#include "studies/text_table.hpp"
 #include "studies/words.hpp"
 
 namespace gamut::commands {

@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "reports/text_table.hpp"
 #include "studies/printable.hpp"
-#include "studies/text_table.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {

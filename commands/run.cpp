@@ -10,9 +10,9 @@
 #include "commands/files.hpp"
 #include "commands/interrupts.hpp"
 #include "commands/options.hpp"
+#include "commands/progress.hpp"
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
-#include "studies/progress.hpp"
 #include "studies/running/run.hpp"
 
 namespace gamut::commands {

@@ -17,10 +17,10 @@
 #include "commands/options.hpp"
 #include "commands/verdict_lines.hpp"
 #include "reports/report.hpp"
+#include "reports/summary.hpp"
 #include "reports/words.hpp"
 #include "studies/printable.hpp"
 #include "studies/results/results_file.hpp"
-#include "studies/summary.hpp"
 #include "studies/watch.hpp"
 
 namespace gamut {

@@ -15,10 +15,10 @@
 #include "commands/files.hpp"
 #include "commands/interrupts.hpp"
 #include "commands/options.hpp"
+#include "commands/progress.hpp"
 #include "commands/table.hpp"
-#include "studies/progress.hpp"
+#include "reports/text_table.hpp"
 #include "studies/running/tolerance.hpp"
-#include "studies/text_table.hpp"
 #include "studies/told.hpp"
 #include "studies/words.hpp"
 

@@ -8,9 +8,9 @@
 #include <ranges>
 
 #include "reports/page/table.hpp"
+#include "reports/summary.hpp"
 #include "reports/words.hpp"
 #include "studies/printable.hpp"
-#include "studies/summary.hpp"
 #include "studies/told.hpp"
 
 namespace gamut {

@@ -18,7 +18,7 @@
 #include "reports/verdict.hpp"
 #include "studies/printable.hpp"
 #include "studies/results/results_file.hpp"
-#include "studies/summary.hpp"
+#include "reports/summary.hpp"
 #include "tests/studies/damage.hpp"
 #include "tests/studies/sample_results.hpp"
 

@@ -20,7 +20,7 @@
 #include "reports/drawing/paper.hpp"
 #include "reports/report.hpp"
 #include "reports/requirements.hpp"
-#include "studies/summary.hpp"
+#include "reports/summary.hpp"
 #include "tests/reports/example_results.hpp"
 
 namespace gamut {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "reports/report.hpp"
+#include "reports/summary.hpp"
 #include "reports/verdict.hpp"
 #include "studies/results/extremes.hpp"
-#include "studies/summary.hpp"
 #include "studies/words.hpp"
 #include "tests/reports/example_results.hpp"
 

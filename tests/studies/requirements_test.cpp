@@ -8,7 +8,6 @@
 #include "studies/running/replay.hpp"
 #include "studies/running/run.hpp"
 #include "studies/running/tolerance.hpp"
-#include "studies/summary.hpp"
 #include "tests/studies/pendulum_text.hpp"
 #include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
@@ -201,7 +200,6 @@ TEST(Requirements, HaveThreeAnswersEach) {
   EXPECT_LE(partly.violationUpper, 0);
   EXPECT_EQ(partly.violationTime, 0);
   EXPECT_EQ(named(results, "passes").word, Decision::met);
-  EXPECT_THAT(jsonSummary(results, "inside", {"a", "b"}), HasSubstr("\"guaranteed\":\"partly\""));
 }
 
 TEST(Requirements, AreKeptInTheFile) {
@@ -551,8 +549,6 @@ TEST(Requirements, AreViolatedInSimulationWhereNothingIsProved) {
   EXPECT_TRUE(small.isViolatedInSimulation);
   EXPECT_THAT(small.why, HasSubstr("a flow of its values alone ends"));
   expectViolation(study, results, small);
-  EXPECT_THAT(jsonSummary(results, "inside", {"a", "b"}),
-              HasSubstr("\"simulated_violation\":{\"sample\":" + std::to_string(small.worstSample) + ",\"margin\":-"));
   const TemporaryFolder folder;
   writeResults(results, folder.path("r.h5"));
   EXPECT_THAT(differences(results, readResults(folder.path("r.h5"))), ::testing::IsEmpty());

@@ -1,5 +1,5 @@
 // Columns stand below each other, whatever alphabet is in them.
-#include "studies/text_table.hpp"
+#include "reports/text_table.hpp"
 
 #include <gmock/gmock.h>
 

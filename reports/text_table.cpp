@@ -1,5 +1,5 @@
 // A byte that goes on with a code point has 10 as its first bits.
-#include "studies/text_table.hpp"
+#include "reports/text_table.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // The JSON object holds what the results hold, and nothing that JSON cannot say.
-#include "studies/summary.hpp"
+#include "reports/summary.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,7 +11,6 @@
 
 #include "mechanics/description/units.hpp"
 #include "scalars/interval.hpp"
-#include "studies/progress.hpp"
 #include "tests/studies/sample_results.hpp"
 
 namespace gamut {
@@ -95,6 +94,19 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(json["files"]["report"], "run.html");
   EXPECT_EQ(json["cost"]["interval"], 0.25);
   EXPECT_EQ(json["cost"]["report"], 0.0625);
+}
+
+TEST(JsonSummary, SaysWhatIsKnownOfARequirement) {
+  Results results = sampleResults();
+  RequirementResult& requirement = results.requirements[0];
+  requirement.word = Decision::partly;
+  requirement.isViolatedInSimulation = true;
+  requirement.worstSample = 17;
+  requirement.worstMargin = -0.25;
+  const Json json = Json::parse(jsonSummary(results, "inside"))["requirements"][0];
+  EXPECT_EQ(json["guaranteed"], "partly");
+  EXPECT_EQ(json["simulated_violation"]["sample"], 17);
+  EXPECT_EQ(json["simulated_violation"]["margin"], -0.25);
 }
 
 TEST(JsonSummary, KeysTimesByTheirShortestDecimalAndKeepsEveryBit) {
@@ -394,12 +406,6 @@ TEST(KeptSamples, SayOfHowMany) {
   EXPECT_EQ(kept.text(), "values of all, motions of one in 18");
   kept.valuesEvery = kept.motionsEvery = 0;
   EXPECT_EQ(kept.text(), "values of none, motions of none");
-}
-
-TEST(ProgressLine, TellsTheTimeLeftOnceItCanBeKnown) {
-  EXPECT_EQ(progressLine("samples", 0, 5), "samples      [                              ]   0 %");
-  EXPECT_EQ(progressLine("samples", 0.5, 30), "samples      [###############               ]  50 %, 30 s left");
-  EXPECT_EQ(progressLine("enclosure", 0.25, 60), "enclosure    [#######                       ]  25 %, 3 min 0 s left");
 }
 
 }  // namespace

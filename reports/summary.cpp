@@ -1,5 +1,5 @@
 // The JSON object and the table.
-#include "studies/summary.hpp"
+#include "reports/summary.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reports/text_table.hpp"
 #include "scalars/interval.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/results/instants.hpp"
 #include "studies/results/verdict.hpp"
-#include "studies/text_table.hpp"
 #include "studies/told.hpp"
 #include "studies/words.hpp"
 

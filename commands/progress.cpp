@@ -1,5 +1,5 @@
 // Drawn at most ten times a second, over itself.
-#include "studies/progress.hpp"
+#include "commands/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
