@@ -50,14 +50,90 @@ FlowJourney FlowFollower::followWhilePossible(FlowPiece& piece, double end, doub
   return FlowJourney::cancelled;
 }
 
+FlowJourney FlowFollower::bisect(const FlowPiece& piece, int symbol, bool areAlternatives) {
+  halves_.first = piece.set;
+  halves_.second = tool_->stepper.bisect(halves_.first, symbol, tool_->range);
+  halves_.areAlternatives = areAlternatives;
+  return FlowJourney::bisected;
+}
+
+/// A turn that was lost is told in parts, or by more terms, if that may be: `goesOn` where a step is to be tried anew;
+/// nothing where it is lost.
+std::optional<FlowJourney> FlowFollower::insteadOfLosingTurn(FlowPiece& piece) {
+  constexpr double leastHalf = 0x1p-3;  // it may be that only smaller parts turn as one, or none does
+  constexpr int many = 128;  // with moments of its own, a turn that few terms do not tell is rather told in parts
+  const bool mayRise = piece.layout + 1 < task_.degrees &&
+                       (!task_.stopsEarly || task_.layouts[piece.layout + 1].monomials->count() <= many);
+  if (!isTurnMixed_ && mayRise) {
+    changeLayout(piece, piece.layout + 1);
+    return FlowJourney::goesOn;
+  }
+  if (turnSymbol_ >= 0 && at(turnSymbol_) < piece.set.half.size() && !tool_->stepper.hasTurned() &&
+      piece.set.half[at(turnSymbol_)] > leastHalf && run_.mayBisect())
+    return bisect(piece, turnSymbol_, false);
+  piece.isTurnLost = true;
+  return std::nullopt;
+}
+
+/// More terms, or halves, where a step is not certified or leaves too much over: `goesOn` where it is to be tried anew;
+/// nothing where it is taken all the same, or cannot be.
+std::optional<FlowJourney> FlowFollower::insteadOfStep(FlowPiece& piece, StepOutcome outcome) {
+  const FlowStepper& stepper = tool_->stepper;
+  if (!stepper.isAcrossKink() && piece.layout + 1 < task_.degrees && isDegreeWorthwhile(piece, outcome)) {
+    changeLayout(piece, piece.layout + 1);
+    return FlowJourney::goesOn;
+  }
+  const bool escapes = task_.embedding.symbols == 0 && stepper.escaping(piece.set) >= 0;
+  const bool futile = outcome == StepOutcome::failed && (escapes || stepper.isRemainderDominant(piece.set));
+  const int symbol = stepper.worstSymbol();
+  // Centres of pieces are exact: fifty bisections of one symbol is as far as that goes.
+  const bool tooFine = symbol < task_.embedding.symbols && piece.set.half[at(symbol)] < 0x1p-50;
+  if (futile || tooFine) return std::nullopt;
+  if (run_.mayBisect()) return bisect(piece, symbol, symbol >= task_.embedding.symbols);
+  piece.refusedAt = piece.set.t;
+  return std::nullopt;
+}
+
+/// A certified step, or one that meets what is followed beside; false if the piece ends with it.
+bool FlowFollower::advance(FlowPiece& piece, bool meets) {
+  FlowStepper& stepper = tool_->stepper;
+  const bool stopsOnceTurned = goesOwnWays(piece);
+  if ((stopsOnceTurned || meets) && piece.set.ahead.c.empty()) endRows(piece);
+  const bool isOwn = stopsOnceTurned || meets || !piece.set.ahead.c.empty();
+  if (!(isOwn ? recordOwnTimes(piece, stopsOnceTurned) : record(piece))) return false;
+  if (stepper.hasTurned()) {
+    piece.sinceTurned = stepper.h() - midpoint(stepper.turnMoments());
+    piece.hasTurned = true;
+  } else {
+    piece.sinceTurned += stepper.h();
+  }
+  piece.hasJustTurned = stopsOnceTurned;
+  if (stopsOnceTurned)
+    stepper.advanceOnceTurned(piece.set);
+  else if (meets)
+    stepper.advanceToMeeting(piece.set);
+  else
+    stepper.advance(piece.set);
+  ++collected_.steps;
+  collected_.slideLoss = std::max(collected_.slideLoss, stepper.slideLoss());
+  piece.timeError += stepper.timeError();
+  piece.truncation += stepper.truncation();
+  for (std::size_t i = 0; symbols_ > 1 && i < piece.set.R.size(); ++i)
+    measureInfluence(&piece.set.p[i * at(monomialCount_)], stepper.monomials(), collected_.influence);
+  if (!task_.mayBisect && symbols_ > 1 && piece.layout + 1 == task_.degrees)
+    piece.tops.add(piece.set.p, stepper.monomials());
+  if (task_.mayTighten() && stepper.isRemainderTooLarge(piece.set)) {
+    run_.abandon(piece);
+    return false;
+  }
+  return true;
+}
+
 FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
   const std::uint64_t began = Work::counted();
   if (piece.path.size() < task_.cuts.size()) {
     use(piece, {});
-    halves_.first = piece.set;
-    halves_.second = tool_->stepper.bisect(halves_.first, task_.cuts[piece.path.size()], tool_->range);
-    halves_.areAlternatives = false;
-    return FlowJourney::bisected;
+    return bisect(piece, task_.cuts[piece.path.size()], false);
   }
   while (piece.set.t < end && static_cast<double>(Work::counted() - began) <= allowed) {
     // As they start: not once solutions are apart from the set (Settling).
@@ -70,87 +146,27 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     if (settle(piece, Settle::unnoticed)) continue;
     StepOutcome outcome = certify(piece);
     if (outcome != StepOutcome::stepped && settle(piece, Settle::ratherThanBisect)) continue;
-    const bool uncertain = symbols_ > 0;
-    const bool meets = meetsBeside(piece, outcome);
+    const bool uncertain = symbols_ > 0, meets = meetsBeside(piece, outcome);
     if (meets) outcome = StepOutcome::stepped;
-    if ((hasLostTurn_ || isTurnMixed_) && uncertain && !piece.isTurnLost) {
-      constexpr double leastHalf = 0x1p-3;  // it may be that only smaller parts turn as one, or none does
-      constexpr int many = 128;  // with moments of its own, a turn that few terms do not tell is rather told in parts
-      const bool mayRise = piece.layout + 1 < task_.degrees &&
-                           (!task_.stopsEarly || task_.layouts[piece.layout + 1].monomials->count() <= many);
-      if (!isTurnMixed_ && mayRise) {
-        changeLayout(piece, piece.layout + 1);
-        continue;
+    std::optional<FlowJourney> instead;
+    if ((hasLostTurn_ || isTurnMixed_) && uncertain && !piece.isTurnLost) instead = insteadOfLosingTurn(piece);
+    if (!instead) {
+      if (tool_->stepper.hasTurned()) piece.isTurnLost = false;
+      if (outcome == StepOutcome::splitWanted && !tool_->stepper.isAcrossKink()) {
+        collected_.metThreshold = true;
+        if (isOfDroppedTerms()) outcome = StepOutcome::stepped;
       }
-      if (turnSymbol_ >= 0 && at(turnSymbol_) < piece.set.half.size() && !tool_->stepper.hasTurned() &&
-          piece.set.half[at(turnSymbol_)] > leastHalf && run_.mayBisect()) {
-        halves_.first = piece.set;
-        halves_.second = tool_->stepper.bisect(halves_.first, turnSymbol_, tool_->range);
-        halves_.areAlternatives = false;
-        return FlowJourney::bisected;
-      }
-      piece.isTurnLost = true;
+      if (outcome != StepOutcome::stepped && uncertain) instead = insteadOfStep(piece, outcome);
     }
-    if (tool_->stepper.hasTurned()) piece.isTurnLost = false;
-    if (outcome == StepOutcome::splitWanted && !tool_->stepper.isAcrossKink()) {
-      collected_.metThreshold = true;
-      if (isOfDroppedTerms()) outcome = StepOutcome::stepped;
-    }
-    if (outcome != StepOutcome::stepped && uncertain) {
-      if (!tool_->stepper.isAcrossKink() && piece.layout + 1 < task_.degrees && isDegreeWorthwhile(piece, outcome)) {
-        changeLayout(piece, piece.layout + 1);
-        continue;
-      }
-      const bool escapes = task_.embedding.symbols == 0 && tool_->stepper.escaping(piece.set) >= 0;
-      const bool futile = outcome == StepOutcome::failed && (escapes || tool_->stepper.isRemainderDominant(piece.set));
-      const int symbol = tool_->stepper.worstSymbol();
-      // Centres of pieces are exact: fifty bisections of one symbol is as far as that goes.
-      const bool tooFine = symbol < task_.embedding.symbols && piece.set.half[at(symbol)] < 0x1p-50;
-      if (!futile && !tooFine && run_.mayBisect()) {
-        halves_.first = piece.set;
-        halves_.second = tool_->stepper.bisect(halves_.first, symbol, tool_->range);
-        halves_.areAlternatives = symbol >= task_.embedding.symbols;
-        return FlowJourney::bisected;
-      }
-      if (!futile && !tooFine) piece.refusedAt = piece.set.t;
-      if (outcome == StepOutcome::splitWanted) outcome = StepOutcome::stepped;  // certified all the same
-    }
+    if (instead == FlowJourney::goesOn) continue;
+    if (instead) return *instead;
+    if (outcome == StepOutcome::splitWanted && uncertain) outcome = StepOutcome::stepped;  // certified all the same
     if (outcome == StepOutcome::failed) {
       if (settle(piece, Settle::surely)) continue;
       run_.fail(piece, piece.set.t, tool_->stepper.why());
       return FlowJourney::ended;
     }
-    const bool stopsOnceTurned = goesOwnWays(piece);
-    if (stopsOnceTurned && piece.set.ahead.c.empty()) endRows(piece);
-    if (meets && piece.set.ahead.c.empty()) endRows(piece);
-    const bool isOwn = stopsOnceTurned || meets || !piece.set.ahead.c.empty();
-    if (!(isOwn ? recordOwnTimes(piece, stopsOnceTurned) : record(piece))) return FlowJourney::ended;
-    if (tool_->stepper.hasTurned()) {
-      const double moment = midpoint(tool_->stepper.turnMoments());
-      piece.sinceTurned = tool_->stepper.h() - moment;
-      piece.hasTurned = true;
-    } else {
-      piece.sinceTurned += tool_->stepper.h();
-    }
-    piece.hasJustTurned = stopsOnceTurned;
-    if (stopsOnceTurned)
-      tool_->stepper.advanceOnceTurned(piece.set);
-    else if (meets)
-      tool_->stepper.advanceToMeeting(piece.set);
-    else
-      tool_->stepper.advance(piece.set);
-    ++collected_.steps;
-    collected_.slideLoss = std::max(collected_.slideLoss, tool_->stepper.slideLoss());
-    piece.timeError += tool_->stepper.timeError();
-    piece.truncation += tool_->stepper.truncation();
-    for (std::size_t i = 0; symbols_ > 1 && i < piece.set.R.size(); ++i)
-      measureInfluence(&piece.set.p[i * at(monomialCount_)], tool_->stepper.monomials(), collected_.influence);
-    if (!task_.mayBisect && symbols_ > 1 && piece.layout + 1 == task_.degrees)
-      piece.tops.add(piece.set.p, tool_->stepper.monomials());
-    if (task_.mayTighten() && tool_->stepper.isRemainderTooLarge(piece.set)) {
-      run_.abandon(piece);
-      return FlowJourney::ended;
-    }
+    if (!advance(piece, meets)) return FlowJourney::ended;
     if (!expand(piece)) lowerDegree(piece);
   }
   return FlowJourney::goesOn;
@@ -709,205 +725,6 @@ int FlowFollower::chordsFor(FlowPiece& piece, const std::vector<Interval>& befor
       parts = std::max(parts, acrossKinks);
   }
   return static_cast<int>(std::ceil(std::min(parts, most)));
-}
-
-/// Adds what the step that was just certified contributes to the tube; false if the piece has grown too wide.
-bool FlowFollower::record(FlowPiece& piece) {
-  const std::vector<double>& times = task_.times;
-  const double t0 = piece.set.t, t1 = std::min(t0 + tool_->stepper.h(), task_.horizon);
-  if (piece.last.empty()) {  // the start
-    std::vector<Interval> outputs;
-    extremes_.resize(extremesAt(0));
-    enclose(piece, 0.0, piece.last, outputs);
-    takeExtremes(0);
-    piece.lastOutputs = outputLimits_;
-    piece.lastRadii = radii();
-    piece.lastModel = modelOutputs(piece, outputLimits_, 0);
-    if (piece.lastModel) collected_.models[0].push_back(piece.lastModel);
-    for (std::size_t i = 0; i < piece.last.size(); ++i) piece.last[i] = intersection(piece.last[i], task_.box[i]);
-    joinHulls(collected_.states[0], piece.last);
-    joinHulls(collected_.statesOver[0], piece.last);
-    joinHulls(collected_.outputs[0], outputs);
-    joinHulls(collected_.outputsOver[0], outputs);
-    encloseLevels(piece, 0);
-    lookAside(piece, 0, piece.last);
-    piece.over = piece.last;
-    piece.overOutputs = outputs;
-    piece.next = 1;
-  }
-  // Chords are those of what the step itself bounds: what is known of jumps besides holds at single times.
-  const FlowStepper& stepper = tool_->stepper;
-  std::vector<Interval> end, endOutputs, endLimits, before = piece.last, beforeLimits = piece.lastOutputs, behind;
-  std::vector<Interval> behindOutputs, behindLimits;
-  std::shared_ptr<FlowSnapshot> endModel, beforeModel = piece.lastModel, behindModel;
-  double from = t0, loadedTo = t0;  // chords are known from before `from` up to `loadedTo`
-  between_ = nullptr;
-  if (outputs_ && signs_ > 0 && stepper.narrows()) {  // a sign may be another from here on than it was until now
-    enclose(piece, 0.0, behind, behindOutputs, false);
-    beforeLimits = outputLimits_;
-    beforeModel = modelOutputs(piece, beforeLimits);
-    piece.lastRadii = radii();
-  }
-  const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
-    if (stepper.narrows()) {
-      const std::vector<Interval> core = stateCore_, outputCore = outputCore_;  // of the end
-      enclose(piece, to - t0, behind, behindOutputs, false);
-      stateCore_ = core;
-      outputCore_ = outputCore;
-      behindLimits = outputLimits_;
-      behindModel = modelOutputs(piece, behindLimits);
-    } else {
-      behind = end;
-      behindLimits = endLimits;
-      behindModel = endModel;
-    }
-    stepper.sag(from - t0, to - t0, sag_);
-    std::vector<Interval> between;
-    for (std::size_t i = 0; i < behind.size(); ++i) between.push_back(overChord(before[i], behind[i], sag_[i]));
-    if (stepper.narrows()) stepper.narrowOver(between);
-    for (std::size_t i = 0; i < between.size(); ++i) piece.over[i] = hull(piece.over[i], between[i]);
-    if (outputs_) {
-      giveSigns(piece, stepper.signsOver(signs_));
-      outputTool_->chords->sag(from - t0, to - t0, sag_);
-      const bool knowsMore = knowsMoreByBoxes();
-      findBoxes(t0, Interval(from, to), between);
-      std::vector<Interval> overs;
-      for (std::size_t i = 0; i < behindLimits.size(); ++i) {
-        Interval over =
-            stepper.isUnsettled() ? Interval::entire() : overChord(beforeLimits[i], behindLimits[i], sag_[i]);
-        if (knowsMore || !isBounded(over)) {
-          const Interval wherever = overBoxes(static_cast<int>(i));
-          over = isBounded(over) ? intersection(over, wherever) : wherever;
-        }
-        piece.overOutputs[i] = hull(piece.overOutputs[i], over);
-        overs.push_back(over);
-      }
-      if (beforeModel && behindModel && piece.next < times.size() && !task_.options.modelled.empty()) {
-        FlowChord chord{{piece.set.centre, piece.set.half}, beforeModel, behindModel, {}, {}};
-        for (const int o : task_.options.modelled) {
-          chord.sag.push_back(stepper.isUnsettled() ? Interval::entire() : sag_[at(o)].whole());
-          chord.bound.push_back(overs[at(o)]);
-        }
-        run_.countChord();
-        collected_.chords[piece.next].push_back(std::move(chord));
-      }
-    }
-    before = behind;
-    beforeLimits = behindLimits;
-    beforeModel = behindModel;
-    piece.last = end;
-    piece.lastOutputs = endLimits;
-    piece.lastRadii = radii();
-    piece.lastModel = endModel;
-    from = to;
-  };
-  const auto endPart = [&](double until) {
-    encloseBetween(piece, until - t0, end, endOutputs);
-    endLimits = outputLimits_;
-    endModel = modelOutputs(piece, endLimits);
-    segment(until);
-  };
-  const auto modelUntil = [&](double to) {  // further chords before `to`, where models are wanted
-    if (!outputs_ || !run_.keepsModels() || !beforeModel || task_.options.modelled.empty()) return;
-    const double begin = from;
-    const int parts = chordsFor(piece, beforeLimits, from - t0, to - t0);
-    for (int part = 1; part < parts; ++part) {
-      const double until = begin + (to - begin) * part / parts;  // any double is exact enough: docs/flow.md, "Time"
-      if (until > from && until < to) endPart(until);
-    }
-  };
-  // Chords of the rest of the step, or of as much of it as they can be proved for: what is bounded at a moment may be
-  // so over a short time alone. What is not even then is left to plain intervals.
-  double length = 0.5 * (t1 - t0);
-  int inVain = 0;
-  const auto loadNext = [&] {
-    constexpr int enoughInVain = 12;
-    const double least = (t1 - t0) / 64;
-    std::vector<char> isKnown(at(outputs_->count()));
-    for (int o = 0; o < outputs_->count(); ++o) isKnown[at(o)] = std::isfinite(piece.lastRadii[at(o)]) ? 1 : 0;
-    const auto isLacking = [&] {  // an output that is known at one end
-      std::vector<int> open;
-      for (int o = 0; o < outputs_->count(); ++o)
-        if (!outputTool_->chords->isBounded(o)) open.push_back(o);
-      if (open.empty()) return false;
-      enclose(piece, loadedTo - t0, end, endOutputs);
-      return std::ranges::any_of(open,
-                                 [&](int o) { return isKnown[at(o)] != 0 || std::isfinite(outputs_->radius(o)); });
-    };
-    for (length = std::max(2 * length, least);; length *= 0.5) {
-      const double until = from + length;
-      loadedTo = inVain < enoughInVain && from < until && until < t1 ? until : t1;
-      giveSigns(piece, stepper.signsOver(signs_));
-      loadChords(piece, beforeLimits, from - t0, loadedTo - t0);
-      if (inVain == enoughInVain || !isLacking()) return;
-      if (!(length > least)) {
-        ++inVain;
-        return;
-      }
-    }
-  };
-  const auto prepare = [&](double to) {
-    while (outputs_) {
-      if (!(loadedTo > from)) loadNext();
-      if (to <= loadedTo) break;
-      const double until = loadedTo;
-      modelUntil(until);
-      endPart(until);
-    }
-    modelUntil(to);
-  };
-  std::vector<double> turning;
-  if (outputs_ && signs_ > 0 && stepper.narrows()) turning = turns(t1 - t0);
-  const auto partUntil = [&](double to) {  // a part for each way that signs are
-    for (const double turn : turning) {
-      const double until = t0 + turn;
-      if (!(until > from && until < to)) continue;
-      prepare(until);
-      endPart(until);
-    }
-    prepare(to);
-  };
-  std::vector<Interval> ofParts, outputsOfParts;
-  for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
-    partUntil(times[piece.next]);
-    const double tau = times[piece.next] - t0;  // exact: docs/flow.md, "Time"
-    encloseWhileTurning(piece, tau, ofParts, outputsOfParts);
-    extremes_.resize(extremesAt(piece.next));
-    enclose(piece, tau, end, endOutputs);
-    const auto meet = [](std::vector<Interval>& bounds, std::vector<Interval>& core,
-                         const std::vector<Interval>& known) {
-      for (std::size_t i = 0; i < known.size(); ++i) {
-        bounds[i] = intersection(bounds[i], known[i]);
-        if (const Interval both = intersection(core[i], bounds[i]); !isEmpty(both)) core[i] = both;
-      }
-    };
-    meet(end, stateCore_, ofParts);
-    meet(endOutputs, outputCore_, outputsOfParts);
-    endLimits = outputLimits_;
-    endModel = modelOutputs(piece, endLimits, piece.next);
-    if (endModel) collected_.models[piece.next].push_back(endModel);
-    joinHulls(collected_.stateCore[piece.next], stateCore_);
-    joinHulls(collected_.outputCore[piece.next], outputCore_);
-    takeExtremes(piece.next);
-    encloseLevels(piece, piece.next);
-    lookAside(piece, piece.next, end);
-    joinHulls(collected_.states[piece.next], end);
-    for (int o = 0; symbols_ > 1 && outputs_ && o < outputs_->count(); ++o)
-      if (std::isfinite(outputs_->radius(o)))
-        measureInfluence(outputs_->polynomial(o), *outputs_->monomials(), collected_.influence);
-    joinHulls(collected_.outputs[piece.next], endOutputs);
-    segment(times[piece.next]);
-    if (signs_ > 0) joinHulls(piece.overOutputs, endOutputs);  // what a sign is at one moment alone
-    joinHulls(collected_.statesOver[piece.next], piece.over);
-    joinHulls(collected_.outputsOver[piece.next], piece.overOutputs);
-    piece.over = end;
-    piece.overOutputs = endOutputs;
-  }
-  if (from < t1) {
-    partUntil(t1);
-    endPart(t1);
-  }
-  return isNarrowEnough(piece, t1, end, endOutputs);
 }
 
 /// Whether these, that were enclosed last, say anything; else the piece has ended then.

@@ -135,6 +135,10 @@ class FlowFollower {
   };
 
   FlowJourney follow(FlowPiece& piece, double end, double allowed);
+  FlowJourney bisect(const FlowPiece& piece, int symbol, bool areAlternatives);
+  std::optional<FlowJourney> insteadOfLosingTurn(FlowPiece& piece);
+  std::optional<FlowJourney> insteadOfStep(FlowPiece& piece, StepOutcome outcome);
+  bool advance(FlowPiece& piece, bool meets);
   StepOutcome certify(const FlowPiece& piece);
   StepOutcome certify(const FlowPiece& piece, bool stops);
   void giveSigns(const FlowPiece& piece, std::vector<SignCases> signs);
@@ -177,6 +181,7 @@ class FlowFollower {
   bool leavesOver(double times, const FlowPiece& piece, const std::vector<Interval>& outputs) const;
   std::vector<double> radii() const;
   int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
+  class Recording;
   bool record(FlowPiece& piece);
   bool goesOwnWays(const FlowPiece& piece) const;
   bool meetsBeside(const FlowPiece& piece, StepOutcome outcome);

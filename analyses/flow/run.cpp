@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "analyses/flow/formulation.hpp"
-#include "analyses/flow/start_outputs.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
@@ -16,16 +15,6 @@
 namespace gamut {
 
 using detail::at;
-
-namespace {
-
-/// Both hold; where nothing is left (no value is defined), `into` stays.
-void narrow(std::vector<Interval>& into, const std::vector<Interval>& other) {
-  for (std::size_t i = 0; i < into.size(); ++i)
-    if (const Interval both = intersection(into[i], other[i]); !isEmpty(both)) into[i] = both;
-}
-
-}  // namespace
 
 Tube FlowRun::run() {
   all_.push_back({start()});
@@ -263,152 +252,6 @@ void FlowRun::probe(const FlowPiece& piece) {
   ended_ = {FlowCause::Kind::start, "one start of the box by itself comes to " + toString(alone.reached()) +
                                         " s only, where " + alone.cause().sentence()};
   mostPieces_ = std::min(mostPieces_, 2 * pieces_);
-}
-
-Tube FlowRun::gather() {
-  Tube tube;
-  tube.times_ = task_.times;
-  tube.reached_ = std::min(task_.horizon, failedAt_);
-  if (!cause_.isNone() && failedAt_ < task_.horizon) {  // at its end nothing fails: a stricter run is worth trying
-    // Where not even one start comes much farther, it is no matter of what the set has become.
-    constexpr double nearly = 0.9;
-    const bool isOfMotion = cause_.kind == FlowCause::Kind::escape || cause_.kind == FlowCause::Kind::edge;
-    const bool isOfStart = !ended_.isNone() && !isOfMotion && failedAt_ >= nearly * endedAt_;
-    tube.cause_ = isOfStart ? ended_ : cause_;
-    if (tube.cause_.kind == FlowCause::Kind::remainder && task_.embedding.symbols > 0)
-      tube.cause_.number = !task_.options.split ? -1 : task_.options.degree >= 0 ? task_.options.degree + 2 : 0;
-    tube.why_ = "at " + toString(failedAt_) + " s " + tube.cause_.sentence();
-  }
-  double earliest = unfinished_;
-  for (const Traveller& traveller : all_) earliest = std::min(earliest, traveller.piece.set.t);
-  if (stop_ && earliest < tube.reached_) {
-    tube.reached_ = earliest;
-    using enum FlowCause::Kind;
-    tube.cause_ = {outOfMemory_ ? outOfMemory : overBudget_ ? overBudget : interrupted};
-    tube.why_ = tube.cause_.sentence();
-  }
-  std::size_t rows = 0;
-  while (rows < task_.times.size() && task_.times[rows] <= tube.reached_ && (rows > 0 || tube.reached_ > 0)) ++rows;
-  const auto merge = [&](auto member, std::vector<std::vector<Interval>>& into) {
-    into.resize(rows);
-    for (std::size_t row = 0; row < rows; ++row)
-      for (FlowCollected& part : collected_)
-        if (!(part.*member)[row].empty()) joinHulls(into[row], (part.*member)[row]);
-  };
-  merge(&FlowCollected::states, tube.states_);
-  merge(&FlowCollected::statesOver, tube.statesOver_);
-  merge(&FlowCollected::outputs, tube.outputs_);
-  merge(&FlowCollected::outputsOver, tube.outputsOver_);
-  merge(&FlowCollected::asides, tube.asides_);
-  tube.extremes_.resize(rows);
-  for (FlowCollected& part : collected_)
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::vector<OutputExtremes>& all = tube.extremes_[row];
-      all.resize(std::max(all.size(), part.extremes[row].size()));
-      for (std::size_t o = 0; o < part.extremes[row].size(); ++o) all[o].join(part.extremes[row][o]);
-    }
-  if (rows == 0) {  // not even one step: the start itself is known
-    tube.states_ =
-        tube.statesOver_ = {std::vector<Interval>(task_.box.begin(), task_.box.begin() + task_.motion.states())};
-    tube.outputs_ = tube.outputsOver_ = {std::vector<Interval>(at(task_.outputs.outputs()), Interval::entire())};
-    tube.asides_ = {std::vector<Interval>(task_.looksAside[0] == 0 ? 0 : at(task_.options.aside.values.outputs()),
-                                          Interval::entire())};
-    rows = 1;
-    for (auto& part : collected_)
-      for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
-  } else {
-    tube.models_ = modelsOf(rows);
-  }
-  // g over start values in plain intervals: exactly what is known exactly.
-  StartOutputs atStart(task_, task_.outputs);
-  narrow(tube.outputs_[0], atStart.over(task_.box));
-  tube.outputsOver_[0] = tube.outputs_[0];
-  if (!tube.asides_[0].empty())
-    narrow(tube.asides_[0], StartOutputs(task_, task_.options.aside.values).over(task_.box));
-  tube.cuts_.assign(task_.levels.size(), std::vector<std::vector<Interval>>(rows));
-  for (std::size_t level = 0; level < task_.levels.size(); ++level)
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::vector<Interval>& cut = tube.cuts_[level][row];
-      for (FlowCollected& part : collected_)
-        if (!part.cuts[level][row].empty()) joinHulls(cut, part.cuts[level][row]);
-      // Nested boxes have nested ranges, so the bound of the level outside holds here too.
-      const std::vector<Interval>& outside = level > 0                     ? tube.cuts_[level - 1][row]
-                                             : task_.outputs.outputs() > 0 ? tube.outputs_[row]
-                                                                           : tube.states_[row];
-      for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = intersection(cut[i], outside[i]);
-      if (row == 0) narrow(cut, task_.outputs.outputs() > 0 ? atStart.over(task_.levels[level]) : task_.levels[level]);
-    }
-  constexpr double unheard = 1e-6;                               // of what it will be
-  const double widest = std::max(task_.embedding.widest, 1e-8);  // inputs apart
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  const double aim = task_.aim(),
-               wellKnown = 5e-5 * aim;  // nor are bounds measured that are so much tighter than the box
-  const double rounding = std::min(0x1p-44, wellKnown * widest);  // of its greatest size: where it passes through zero
-  const double hardlyVaries =
-      3 * aim * aim;  // what hardly varies at all, but for what is left over, is no width to keep
-  const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto cores,
-                          const std::vector<double>& floors) {
-    std::vector<std::vector<double>> shares(rows);
-    std::vector<std::vector<Interval>> core(rows);
-    std::vector<double> greatest(bounds[0].size(), 0.0);  // width over all times
-    std::vector<double> largest(bounds[0].size(), 0.0);   // magnitude
-    std::vector<char> isZero(bounds[0].size(), 1);        // at all times, as symmetry keeps it
-    for (std::size_t row = 0; row < rows; ++row) {
-      for (const FlowCollected& part : collected_)
-        if (!(part.*cores)[row].empty()) joinHulls(core[row], (part.*cores)[row]);
-      for (std::size_t i = 0; i < bounds[row].size(); ++i) {
-        const Interval& bound = bounds[row][i];
-        const bool isStart = core[row].empty();  // nothing is left over there, but how large an output was counts
-        if (isStart && !isBounded(bound)) continue;
-        greatest[i] = std::max(greatest[i], width(bound));
-        largest[i] = std::max(largest[i], magnitude(bound));
-        if (!isStart && !(contains(bound, 0.0) && magnitude(core[row][i]) <= 1e-6 * width(bound))) isZero[i] = 0;
-      }
-    }
-    for (std::size_t row = 0; row < rows; ++row) {
-      shares[row].resize(bounds[row].size(), 0.0);
-      for (std::size_t i = 0; i < core[row].size(); ++i) {
-        const Interval& bound = bounds[row][i];
-        const double rest = width(core[row][i]), remainder = width(bound) - rest;
-        const bool isInvariant = rest < 0.5 * remainder && remainder < hardlyVaries * widest * magnitude(bound);
-        if (isZero[i] == 0 && !isInvariant && remainder > wellKnown * widest * magnitude(bound) &&
-            remainder > unheard * greatest[i] && remainder > rounding * largest[i] &&
-            (floors.empty() || remainder > floors[i]))
-          shares[row][i] = rest > 0 ? remainder / rest : infinite;
-      }
-    }
-    return shares;
-  };
-  tube.excess_ = excess(tube.states_, &FlowCollected::stateCore, {});
-  const double ofStates = tube.tightness() - 1;
-  if (task_.outputs.outputs() > 0)
-    tube.excess_ = excess(tube.outputs_, &FlowCollected::outputCore, task_.options.floors);
-  for (const int output : task_.options.uncounted)
-    for (std::vector<double>& row : tube.excess_) row[at(output)] = 0;
-  const auto isWide = [&](int input) { return !isThin(task_.box[at(task_.motion.states() + input)]); };
-  if (task_.embedding.symbols == 0 && std::ranges::none_of(task_.varying, isWide)) tube.excess_.clear();
-  looseness_ = loosenessOf(tube, task_.options);
-  needsDegree_ = looseness_ > aim && ofStates <= aim;
-  for (const Traveller& traveller : all_) count(traveller.piece);
-  for (const FlowCollected& part : collected_) {
-    metThreshold_ = metThreshold_ || part.metThreshold;
-    slideLoss_ = std::max(slideLoss_, part.slideLoss);
-  }
-  timeShare_ = timeError_ > 0 ? timeError_ / (timeError_ + truncation_) : 0;
-  for (const FlowCollected& part : collected_)
-    for (std::size_t l = 0; l < part.influence.size(); ++l) {
-      influence_[l].any = std::max(influence_[l].any, part.influence[l].any);
-      influence_[l].nonlinear = std::max(influence_[l].nonlinear, part.influence[l].nonlinear);
-    }
-  for (const Embedded& e : task_.embedding.components)
-    tube.nonlinear_.push_back(e.symbol >= 0 ? influence_[at(e.symbol)].nonlinear : 0);
-  tube.pieces_ = pieces_;
-  for (const FlowCollected& part : collected_) {
-    tube.steps_ += part.steps;
-    tube.cpu_ += part.cpu;
-    tube.cutCpu_ += part.cutCpu;
-  }
-  return tube;
 }
 
 std::shared_ptr<const FlowModels> FlowRun::modelsOf(std::size_t rows) {

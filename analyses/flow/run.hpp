@@ -115,7 +115,16 @@ class FlowRun {
   void dropModels();
   void report(double earliest);
   void probe(const FlowPiece& piece);
+  using Rows = std::vector<std::vector<Interval>>;  // of bounds
   Tube gather();
+  void explainEnd(Tube& tube) const;
+  void gatherBounds(Tube& tube, std::size_t rows) const;
+  void takeStart(Tube& tube);
+  void gatherCuts(Tube& tube) const;
+  std::vector<std::vector<double>> excessOf(const Rows& bounds, Rows FlowCollected::*cores,
+                                            const std::vector<double>& floors) const;
+  void measureExcess(Tube& tube);
+  void gatherCounts(Tube& tube);
   std::shared_ptr<const FlowModels> modelsOf(std::size_t rows);
 
   const FlowTask& task_;

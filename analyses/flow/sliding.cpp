@@ -346,130 +346,121 @@ std::vector<JumpBound> FlowStepper::sidedBounds() const {
   return bounds;
 }
 
-FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest, double left) {
-  ownBounds_.clear();
-  heldBounds_.clear();
-  isSliding_ = false;
-  Box box;
-  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, y_[at(i)]));  // proved: no more than E
-  const Box first = boxAtStart(set);
-  const Interval began(set.t), time = began + Interval(0.0, h);
-  std::vector<JumpBound> atStart, heldAtStart;
+/// Where solutions may leave the sides that the signs stand for: nothing where they do not, up to `h` or at all.
+std::optional<FlowStepper::Look> FlowStepper::lookAtSides(const FlowSet& set, const Box& box, double& h,
+                                                          double smallest) {
   areSidesClear_ = staysOnSides(set, box);
-  if (!areSidesClear_) {  // E, not y: solutions are inside y until they leave their side
-    if (!leaving_.empty() && !leavesTogether(set, h)) {
-      sides_.clear();
-      return Look::unsided;
-    }
-    const double longest =
-        loadRates(*ownRates_, set, h, sidedBounds(), lift_.empty() ? withLow(E_) : heldTube_) ? longestOnSides(h) : 0;
-    if (longest < h && longest > 0 && mayTurn_) {
-      const Look look = lookAtSurface(set, h, smallest);
-      if (look != Look::released) return look;
-      mayTurn_ = false;
-      if (!lift_.empty()) {
-        lift_.clear();
-        return Look::shorter;
-      }
-    }
-    if (longest < h) {
-      constexpr double atLeast = 0x1p-6;  // of a step that is taken so
-      if (longest < atLeast * h || longest < smallest) {
-        sides_.clear();
-        return Look::unsided;
-      }
-      h = std::min(longest, 0.999 * h);
-      return Look::shorter;
-    }
+  if (areSidesClear_) return {};  // E, not y: solutions are inside y until they leave their side
+  if (!leaving_.empty() && !leavesTogether(set, h)) {
+    sides_.clear();
+    return Look::unsided;
   }
-  if (!lift_.empty() && isLiftOfSurface_) {  // known better without
-    lift_.clear();
+  const double longest =
+      loadRates(*ownRates_, set, h, sidedBounds(), lift_.empty() ? withLow(E_) : heldTube_) ? longestOnSides(h) : 0;
+  if (longest < h && longest > 0 && mayTurn_) {
+    const Look look = lookAtSurface(set, h, smallest);
+    if (look != Look::released) return look;
+    if (const std::optional<Look> again = withoutTurn()) return again;
+  }
+  if (!(longest < h)) return {};
+  constexpr double atLeast = 0x1p-6;  // of a step that is taken so
+  if (longest < atLeast * h || longest < smallest) {
+    sides_.clear();
+    return Look::unsided;
+  }
+  h = std::min(longest, 0.999 * h);
+  return Look::shorter;
+}
+
+/// There is no turn; whatever was lifted for one is bounded anew.
+std::optional<FlowStepper::Look> FlowStepper::withoutTurn() {
+  mayTurn_ = false;
+  return withoutLift();
+}
+
+std::optional<FlowStepper::Look> FlowStepper::withoutLift() {
+  if (lift_.empty()) return {};
+  lift_.clear();
+  return Look::shorter;
+}
+
+/// What is looked at: over the step, and at its start.
+struct FlowStepper::Around {
+  Box box, first;
+  Interval began, time;
+  std::vector<JumpBound> atStart = {}, heldAtStart = {};
+};
+
+std::vector<SideRates> FlowStepper::ratesUntil(const JumpRates& rates, double until, std::size_t count) const {
+  std::vector<SideRates> known;
+  for (std::size_t k = 0; k < count; ++k)
+    known.push_back({rates.over(k, 1, 0, until / h0_), rates.over(k, -1, 0, until / h0_)});
+  return known;
+}
+
+/// How long what is held certainly is, by intervals, then by polynomials; nothing where a shorter step tells more.
+std::optional<double> FlowStepper::longestHeldIn(const FlowSet& set, Around& around, double& h, double smallest) {
+  auto& [box, first, began, time, atStart, heldAtStart] = around;
+  boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_);
+  boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart);
+  double held = 0.5 * h, pressed = h;
+  const auto press = [&, &start = heldAtStart] {
+    pressed = longestPressed(set, h, withLow(y_));
+    for (const RestingJumps& rest : of_->rests)
+      if (held_[rest.speed] == atRest && pressed > 0)
+        start[rest.position] = start[rest.speed] = JumpBound::held(Interval(0.0));
+  };
+  press();
+  const bool isByIntervals = areHeld(heldBounds_);
+  if (HeldSigns* together = isByIntervals ? nullptr : heldTogether(set, h, withLow(y_))) {
+    held = longestTogether(*together, h);
+    giveTogether(*together, h, heldBounds_);
+    giveTogether(*together, 0, heldAtStart);
+    constexpr double muchShorter = 0.25, beginning = 0x1p-10;  // of the step, which may be too long to tell
+    if (!areHeld(heldAtStart) && (together = heldTogether(set, beginning * h, withLow(y_))) != nullptr) {
+      giveTogether(*together, 0, heldAtStart);
+      if (areHeld(heldAtStart) && muchShorter * h > smallest) {
+        h *= muchShorter;
+        return {};
+      }
+    }
+  } else if (!isByIntervals && loadRates(*heldRates_, set, h, heldBounds_, withLow(y_))) {
+    held = longestHeld(*heldRates_, h);
+    boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_, ratesUntil(*heldRates_, h, held_.size()));
+    boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart, ratesUntil(*heldRates_, 0, held_.size()));
+    press();
+  }
+  return std::min({held, pressed, 0.99 * h});
+}
+
+/// What holds may end to: nothing where it does not.
+std::optional<FlowStepper::Look> FlowStepper::lookAtHeld(const FlowSet& set, Around& around, double& h,
+                                                         double smallest) {
+  const std::optional<double> held = longestHeldIn(set, around, h, smallest);
+  if (!held) return Look::shorter;
+  if (areHeld(heldBounds_)) return passing_ == none ? withoutLift() : std::nullopt;  // known better without
+  if (mayTurn_) {
+    const Look look = lookAtRelease(set, h, smallest);
+    if (look != Look::released) return look;
+    if (const std::optional<Look> again = withoutTurn()) return again;
+    if (areHeld(heldBounds_)) return {};
+  }
+  const bool couldHold = areHeld(around.heldAtStart);
+  if (couldHold && *held >= 0.5 * leastHold * smallest) {
+    h = *held;
     return Look::shorter;
   }
-  const bool isAffine = !own_ || own_->jumps().isAffine;
-  if (!isAffine && !holding_) return Look::goOn;
-  const bool mayTurn = isAffine && boundOwnJumps(set, time, box, h, ownBounds_);
-  if (!mayTurn && !holding_) {
-    ownBounds_.clear();
-    return Look::goOn;
+  if (kinks_ && h > leastHold * smallest && mayPassKink(set)) {  // in a shorter step less depends on its side
+    h *= 0.25;
+    return Look::shorter;
   }
-  if (isAffine)
-    boundOwnJumps(set, began, first, 0.0, atStart);
-  else
-    ownBounds_ = atStart = sidedBounds();
-  // What intervals leave open: by polynomials.
-  const auto ratesUntil = [&](const JumpRates& rates, double until, std::size_t count) {
-    std::vector<SideRates> known;
-    for (std::size_t k = 0; k < count; ++k)
-      known.push_back({rates.over(k, 1, 0, until / h0_), rates.over(k, -1, 0, until / h0_)});
-    return known;
-  };
-  if (mayTurn && loadRates(*ownRates_, set, h, ownBounds_, withLow(y_))) {
-    boundOwnJumps(set, time, box, h, ownBounds_, ratesUntil(*ownRates_, h, ownBounds_.size()));
-    boundOwnJumps(set, began, first, 0.0, atStart, ratesUntil(*ownRates_, 0, ownBounds_.size()));
-  }
-  if (holding_) {
-    boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_);
-    boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart);
-    double held = 0.5 * h, pressed = h;
-    const auto press = [&] {
-      pressed = longestPressed(set, h, withLow(y_));
-      for (const RestingJumps& rest : of_->rests)
-        if (held_[rest.speed] == atRest && pressed > 0)
-          heldAtStart[rest.position] = heldAtStart[rest.speed] = JumpBound::held(Interval(0.0));
-    };
-    press();
-    const bool isByIntervals = areHeld(heldBounds_);
-    if (HeldSigns* together = isByIntervals ? nullptr : heldTogether(set, h, withLow(y_))) {
-      held = longestTogether(*together, h);
-      giveTogether(*together, h, heldBounds_);
-      giveTogether(*together, 0, heldAtStart);
-      constexpr double muchShorter = 0.25, beginning = 0x1p-10;  // of the step, which may be too long to tell
-      if (!areHeld(heldAtStart) && (together = heldTogether(set, beginning * h, withLow(y_))) != nullptr) {
-        giveTogether(*together, 0, heldAtStart);
-        if (areHeld(heldAtStart) && muchShorter * h > smallest) {
-          h *= muchShorter;
-          return Look::shorter;
-        }
-      }
-    } else if (!isByIntervals && loadRates(*heldRates_, set, h, heldBounds_, withLow(y_))) {
-      held = longestHeld(*heldRates_, h);
-      boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_, ratesUntil(*heldRates_, h, held_.size()));
-      boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart, ratesUntil(*heldRates_, 0, held_.size()));
-      press();
-    }
-    if (areHeld(heldBounds_) && !lift_.empty() && passing_ == none) {  // known better without
-      lift_.clear();
-      return Look::shorter;
-    }
-    if (!areHeld(heldBounds_) && mayTurn_) {
-      const Look look = lookAtRelease(set, h, smallest);
-      if (look != Look::released) return look;
-      mayTurn_ = false;
-      if (!lift_.empty()) {
-        lift_.clear();
-        return Look::shorter;
-      }
-    }
-    if (!areHeld(heldBounds_)) {
-      const bool couldHold = areHeld(heldAtStart);
-      held = std::min({held, pressed, 0.99 * h});
-      if (couldHold && held >= 0.5 * leastHold * smallest) {
-        h = held;
-        return Look::shorter;
-      }
-      if (kinks_ && h > leastHold * smallest && mayPassKink(set)) {  // in a shorter step less depends on its side
-        h *= 0.25;
-        return Look::shorter;
-      }
-      letGo(set, couldHold ? heldBounds_ : heldAtStart);
-      return Look::released;
-    }
-  }
-  if (!isAffine) {
-    ownBounds_.clear();
-    return Look::goOn;
-  }
+  letGo(set, couldHold ? heldBounds_ : around.heldAtStart);
+  return Look::released;
+}
+
+/// What the motion's own jumps are crossed by, slide on, or are known of beyond what was; and how long a step may be.
+FlowStepper::Look FlowStepper::lookAtCrossings(const FlowSet& set, const Around& around, double& h, double smallest,
+                                               double left) {
   // One that comes alone, and all of it from one side, is known by when it does.
   const bool mayArrive = inputs_.empty() && std::ranges::count_if(ownBounds_, [](const JumpBound& bound) {
                                               return bound.isKnown() && contains(bound.over, 0.0);
@@ -479,7 +470,8 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       if (sides_[j] != 0) bounds[j] = {};
     return bounds;
   };
-  double longest = longestToCross(withoutSides(ownBounds_), withoutSides(atStart), h, smallest, mayArrive), longer = h;
+  double longest = longestToCross(withoutSides(ownBounds_), withoutSides(around.atStart), h, smallest, mayArrive),
+         longer = h;
   std::vector<std::size_t> narrower;
   for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
     const JumpBound& bound = ownBounds_[j];
@@ -503,7 +495,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     narrower.push_back(j);
     if (!slides) continue;
     isSliding_ = true;
-    longest = std::min(longest, longestWhileSliding(bound, atStart[j], h, set.slideStep));
+    longest = std::min(longest, longestWhileSliding(bound, around.atStart[j], h, set.slideStep));
   }
   if (longest < 0.99 * h && h > smallest) {
     h = std::max(longest, smallest);
@@ -514,6 +506,11 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     h = std::min(longer, left);
     return Look::longer;
   }
+  return giveNarrower(narrower, h);
+}
+
+/// Signs that are known better than they were given.
+FlowStepper::Look FlowStepper::giveNarrower(const std::vector<std::size_t>& narrower, double h) {
   constexpr double muchShorter = 0.5;  // than when signs were given: they are known better now
   if (narrower.empty() || (signsAt_ > 0 && h > muchShorter * signsAt_)) return Look::goOn;
   signsAt_ = givenAt_ = h;
@@ -523,6 +520,39 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     series_.giveSign(series_.jumps()[j], ownBounds_[j].sign, ownBounds_[j].over, about);
   }
   return Look::again;
+}
+
+FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest, double left) {
+  ownBounds_.clear();
+  heldBounds_.clear();
+  isSliding_ = false;
+  const Interval began(set.t);
+  Around around{{}, boxAtStart(set), began, began + Interval(0.0, h)};
+  for (int i = 0; i < n_; ++i) around.box.push_back(series_.rangeOf(i, y_[at(i)]));  // proved: no more than E
+  if (const std::optional<Look> look = lookAtSides(set, around.box, h, smallest)) return *look;
+  if (isLiftOfSurface_)  // known better without
+    if (const std::optional<Look> look = withoutLift()) return *look;
+  const bool isAffine = !own_ || own_->jumps().isAffine;
+  if (!isAffine && !holding_) return Look::goOn;
+  const bool mayTurn = isAffine && boundOwnJumps(set, around.time, around.box, h, ownBounds_);
+  if (!mayTurn && !holding_) {
+    ownBounds_.clear();
+    return Look::goOn;
+  }
+  if (isAffine)
+    boundOwnJumps(set, began, around.first, 0.0, around.atStart);
+  else
+    ownBounds_ = around.atStart = sidedBounds();
+  if (mayTurn && loadRates(*ownRates_, set, h, ownBounds_, withLow(y_))) {  // by polynomials, what intervals leave open
+    const std::size_t count = ownBounds_.size();
+    boundOwnJumps(set, around.time, around.box, h, ownBounds_, ratesUntil(*ownRates_, h, count));
+    boundOwnJumps(set, began, around.first, 0.0, around.atStart, ratesUntil(*ownRates_, 0, count));
+  }
+  if (holding_)
+    if (const std::optional<Look> look = lookAtHeld(set, around, h, smallest)) return *look;
+  if (isAffine) return lookAtCrossings(set, around, h, smallest, left);
+  ownBounds_.clear();
+  return Look::goOn;
 }
 
 /// How far u, between the bounds that rates give, is from ũ at most, at both ends of the step. Bounds of u bend away

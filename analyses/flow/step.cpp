@@ -159,51 +159,40 @@ bool FlowStepper::areJumpsClear(const FlowSet& set) const {
 
 bool FlowStepper::isSmooth() const { return !own_ && !holding_ && !kinks_ && !series_.hasKinks() && inputs_.empty(); }
 
-bool FlowStepper::tryStep(const FlowSet& set, double theta) {
-  const double h = theta * h0_;  // exact: h0 is a power of two
-  obstacle_.clear();
-  const auto refuse = [&] {
-    obstacle_ = series_.obstacle();
-    return false;
-  };
-  series_.forgetJumps();
-  const auto boundAlong = [&] {
-    if (!series_.bound(nullptr, false)) return false;
-    series_.keepAlong();
-    for (int i = 0; i < n_; ++i) {
-      const int f = series_.outputNode(i);
-      // δ = x̃' - f(x̃): the bound of f's node, and the rounding in the division by i+1.
-      delta0_[at(i)] = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
-      delta1_[at(i)] = series_.rho1(f);
-    }
-    return true;
-  };
-  if (!series_.tabulate(theta) || !boundAlong()) return refuse();
+bool FlowStepper::refuse() {
+  obstacle_ = series_.obstacle();
+  return false;
+}
+
+/// The defect of x̃ itself, along it.
+bool FlowStepper::boundAlong() {
+  if (!series_.bound(nullptr, false)) return false;
+  series_.keepAlong();
   for (int i = 0; i < n_; ++i) {
-    scale_[at(i)] = std::max(series_.norm(i), least_[at(i)]);
-    double start = set.W[at(i)];
-    for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
-    start_[at(i)] = start * bounds::up;
+    const int f = series_.outputNode(i);
+    // δ = x̃' - f(x̃): the bound of f's node, and the rounding in the division by i+1.
+    delta0_[at(i)] = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
+    delta1_[at(i)] = series_.rho1(f);
   }
-  const auto tube = [&] {  // prop(δ + |∂f/∂w| |w|) + e^{Ah} (|C|R + W)
-    std::vector<double> pushed(at(n_), 0.0);
-    for (int i = 0; i < n_; ++i) pushed[at(i)] = delta0_[at(i)] + inputs_.push(series_, i);
-    for (int i = 0; i < n_; ++i) {
-      double y = 0;
-      for (int j = 0; j < n_; ++j)
-        y += growth_.M1(i, j) * pushed[at(j)] + growth_.M2(i, j) * delta1_[at(j)] + growth_.M0(i, j) * start_[at(j)];
-      y_[at(i)] = (lift_.empty() ? y : y + lift_[at(i)]) * bounds::up + bounds::tiny;
-      heldTube_[at(i)] = (y + series_.lowNorm(i)) * bounds::up + bounds::tiny;
-    }
-  };
-  if (!boundGrowth(set, h)) return false;
-  tube();
-  if (series_.hasKinks()) {
-    if (!series_.bound(start_.data(), false)) return refuse();
-    series_.keepAtStart();
+  return true;
+}
+
+/// y = prop(δ + |∂f/∂w| |w|) + e^{Ah} (|C|R + W)
+void FlowStepper::boundTube() {
+  std::vector<double> pushed(at(n_), 0.0);
+  for (int i = 0; i < n_; ++i) pushed[at(i)] = delta0_[at(i)] + inputs_.push(series_, i);
+  for (int i = 0; i < n_; ++i) {
+    double y = 0;
+    for (int j = 0; j < n_; ++j)
+      y += growth_.M1(i, j) * pushed[at(j)] + growth_.M2(i, j) * delta1_[at(j)] + growth_.M0(i, j) * start_[at(j)];
+    y_[at(i)] = (lift_.empty() ? y : y + lift_[at(i)]) * bounds::up + bounds::tiny;
+    heldTube_[at(i)] = (y + series_.lowNorm(i)) * bounds::up + bounds::tiny;
   }
-  bool proved = false;
-  for (int attempt = 0; attempt < 4 && !proved; ++attempt) {
+}
+
+/// E, within which y stays that follows from it.
+bool FlowStepper::proveTube(const FlowSet& set, double h) {
+  for (int attempt = 0; attempt < 4; ++attempt) {
     for (int i = 0; i < n_; ++i) {
       E_[at(i)] = y_[at(i)] * (attempt == 0 ? 1.05 : 1.3);
       if (!(E_[at(i)] < bounds::largest)) return false;
@@ -211,22 +200,29 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     if (!series_.bound(E_.data(), false)) return refuse();
     if (series_.hasJumped() && !(boundAlong() && series_.bound(E_.data(), false))) return refuse();
     if (!boundGrowth(set, h)) return false;
-    tube();
-    proved = true;
-    for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] < E_[at(i)];
+    boundTube();
+    bool isProved = true;
+    for (int i = 0; i < n_; ++i) isProved = isProved && y_[at(i)] < E_[at(i)];
+    if (isProved) return true;
   }
-  if (!proved) return false;
+  return false;
+}
+
+/// What the states are measured by: a state at rest that what others leave over drives by that; with symbols, one that
+/// is smaller than what is left over of it (a joint that symmetry keeps at zero) by the greatest state.
+void FlowStepper::adjustScales() {
   double greatest = 0;  // of all states, in balanced units
   const std::vector<int>& units = growth_.units();
   for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[at(i)], -units[at(i)]));
-  // A state at rest that what others leave over drives is measured by that; with symbols, one that is smaller than what
-  // is left over of it (a joint that symmetry keeps at zero) by the greatest state.
   for (int i = 0; i < n_; ++i) {
     const bool isUnknown = y_[at(i)] > scale_[at(i)] && monomials().symbols() > 0;
     scale_[at(i)] = std::max(scale_[at(i)], hardlyMoving * y_[at(i)]);
     if (isUnknown) scale_[at(i)] = std::max(scale_[at(i)], std::ldexp(greatest, units[at(i)]));
   }
-  inputs_.resolve(series_, growth_, theta, h);
+}
+
+/// What the step leaves over of the states.
+void FlowStepper::boundErrors(const FlowSet& set) {
   timeError_ = truncation_ = 0;
   for (int i = 0; i < n_; ++i) {
     double time = 0, truncation = 0, kept = 0;
@@ -241,6 +237,10 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     timeError_ = std::max(timeError_, time / scale_[at(i)]);
     truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
   }
+}
+
+/// And of the frame that carries their remainders.
+void FlowStepper::boundFrameErrors(const FlowSet& set) {
   std::vector<double> left(at(n_), 0.0);  // of |Ψ| total, out of time
   for (int j = 0; j < n_; ++j) {
     for (int i = 0; i < n_; ++i) series_.frameDefect(i, j, nu0_[at(i)], nu1_[at(i)]);
@@ -263,6 +263,30 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   }
   frameError_ = all > 0 ? most / all : 0;
   if (growth_.isDamped()) frameError_ = std::max(frameError_, mostOfFrame / mostOfColumn * worstColumn(set));
+}
+
+bool FlowStepper::tryStep(const FlowSet& set, double theta) {
+  const double h = theta * h0_;  // exact: h0 is a power of two
+  obstacle_.clear();
+  series_.forgetJumps();
+  if (!series_.tabulate(theta) || !boundAlong()) return refuse();
+  for (int i = 0; i < n_; ++i) {
+    scale_[at(i)] = std::max(series_.norm(i), least_[at(i)]);
+    double start = set.W[at(i)];
+    for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
+    start_[at(i)] = start * bounds::up;
+  }
+  if (!boundGrowth(set, h)) return false;
+  boundTube();
+  if (series_.hasKinks()) {
+    if (!series_.bound(start_.data(), false)) return refuse();
+    series_.keepAtStart();
+  }
+  if (!proveTube(set, h)) return false;
+  adjustScales();
+  inputs_.resolve(series_, growth_, theta, h);
+  boundErrors(set);
+  boundFrameErrors(set);
   return true;
 }
 
@@ -490,8 +514,16 @@ bool FlowStepper::drift(FlowSet& set, double end, std::vector<double>& turned) {
   return true;
 }
 
-StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, const SplitShares& shares) {
-  const std::uint64_t begun = Work::counted();
+/// A step that is being looked for.
+struct FlowStepper::Search {
+  const FlowSet& set;
+  double end, left, quantum, smallest;  ///< left: until the end; smallest: below that, time itself is too coarse
+  double suggested = 0, h = 0;
+  int attempt = 0;
+  bool isAdapted = false;  ///< polynomials are those of kinks that are crossed
+};
+
+void FlowStepper::begin(const FlowSet& set, double end) {
   ofGenerators_ = 0;
   symbolAcross_ = -1;
   slideLoss_ = 0;
@@ -510,149 +542,175 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   turnSymbol_ = -1;
   ownBounds_.clear();
   heldBounds_.clear();
-  const double left = end - set.t;
   // Signs of time that are known until the horizon are taken to stay beyond it: until then nothing else is said of f.
-  reach_ = end < length_ ? left : timeKinks_.nextLinear(set.parameters, end) - set.t;
+  reach_ = end < length_ ? end - set.t : timeKinks_.nextLinear(set.parameters, end) - set.t;
   caution_ = set.caution;
   growth_.setUnits(set.units);
-  const auto forgetCrossings = [&] {
-    series_.forgetCrossings();
-    timeKinks_.giveSides(set.parameters, set.t, end, series_);
-    for (std::size_t j = 0; j < sides_.size(); ++j)
-      if (sides_[j] != 0) series_.giveSide(series_.jumps()[j], sides_[j]);
-    if (passing_ != none) series_.giveSide(kinks_->node(passing_), passingFrom_);
-    for (std::size_t k = 0; k < kinkSides_.size(); ++k)
-      if (kinkSides_[k] != 0) series_.giveSide(kinks_->node(k), kinkSides_[k]);
-  };
   assumeSides(set);
   kinkSides_.clear();
   if (kinks_) assumeKinks(set);
-  forgetCrossings();
-  const auto onGrid = [&](double h) { return std::floor(h / quantum) * quantum; };
-  const double smallest = 1024 * quantum;  // below this, time itself is too coarse
-  double h = expand(set, left, smallest);
-  if (!(h > 0)) {
-    obstacle_ = h == 0 ? "" : "a number that is not finite";
+  forgetCrossings(set, end);
+}
+
+/// All signs are as the step takes them at its start.
+void FlowStepper::forgetCrossings(const FlowSet& set, double end) {
+  series_.forgetCrossings();
+  timeKinks_.giveSides(set.parameters, set.t, end, series_);
+  for (std::size_t j = 0; j < sides_.size(); ++j)
+    if (sides_[j] != 0) series_.giveSide(series_.jumps()[j], sides_[j]);
+  if (passing_ != none) series_.giveSide(kinks_->node(passing_), passingFrom_);
+  for (std::size_t k = 0; k < kinkSides_.size(); ++k)
+    if (kinkSides_[k] != 0) series_.giveSide(kinks_->node(k), kinkSides_[k]);
+}
+
+void FlowStepper::compute(const FlowSet& set) {
+  load(set);
+  series_.compute(set.t, h0_);
+}
+
+void FlowStepper::computeAnew(Search& search) {
+  forgetCrossings(search.set, search.end);
+  search.isAdapted = false;
+  compute(search.set);
+}
+
+bool FlowStepper::adapts(Search& search) {
+  if (search.isAdapted || !series_.adaptToCrossings()) return false;
+  search.isAdapted = true;
+  compute(search.set);
+  return true;
+}
+
+/// Where a shorter step leaves less over.
+bool FlowStepper::isShortenedForErrors(Search& search) {
+  const int patience = growth_.isDamped() || monomials().symbols() >= many ? 12 : 3;  // growth says little of both
+  if (search.attempt >= patience) return false;
+  if (timeError_ > 5 * tolerance_) {
+    const double factor = std::pow(tolerance_ / timeError_, 1.0 / (m_ + 1));
+    caution_ *= factor;
+    search.h *= factor;
+    return true;
+  }
+  // Of a machine at rest it is errors that move, faster than it does itself; of a damped one as well.
+  const bool asksForFrame = growth_.isDamped() || series_.count() > 1;
+  if (asksForFrame && frameError_ > mostOfFrame) {
+    search.h *= std::max(0.25, 0.9 * std::pow(mostOfFrame / frameError_, 1.0 / (m_ + 1)));
+    return true;
+  }
+  // Stiff, or so much is left over: the comparison with |Df| would lose a factor e^{growth} a step.
+  const double most = inputs_.empty() || !isLooserThanDriven() ? (monomials().symbols() < many ? mostGrowth
+                                                                  : growth_.isAbout()          ? mostGrowthAbout
+                                                                                               : mostGrowthOfMany)
+                                                               : mostGrowthOfInputs;
+  if (!(growth_.growth() > most)) return false;
+  search.h *= 0.75 * most / growth_.growth();
+  return true;
+}
+
+/// What jumps and kinks ask for; all but `goOn` and `released` are another attempt.
+FlowStepper::Look FlowStepper::lookAround(Search& search) {
+  const double least = 0x1p14 * search.quantum;
+  crossings_.clear();
+  turn_.reset();
+  Look look = own_ || holding_ ? lookAtJumps(search.set, search.h, least, search.left) : Look::goOn;
+  if (look == Look::goOn && kinks_) look = lookAtKinks(search.set, search.h, least, search.left);
+  if (look == Look::unsided) computeAnew(search);
+  if (look == Look::shorter || look == Look::longer) {
+    isShortened_ = true;
+    if (search.h > h0_) {
+      while (h0_ < search.h) h0_ *= 2;
+      compute(search.set);
+    }
+    --search.attempt;
+  }
+  if (look == Look::again) compute(search.set);
+  if (look != Look::goOn || !(search.h > search.left) || turn_) return look;
+  search.h = search.left;
+  return Look::longer;
+}
+
+bool FlowStepper::isShortenedForHaste(Search& search) {
+  constexpr int patience = 12;
+  if (inputs_.haste() > 1 && search.attempt < patience && search.h > 0x1p33 * search.quantum) {  // 1e-6 of the horizon
+    search.h /= std::min(inputs_.haste() * 1.1, 16.0);
+    return true;
+  }
+  if (series_.haste() > 1 && search.attempt < patience && search.h > 0x1p23 * search.quantum) {  // 1e-9 of it
+    search.h /= series_.haste();
+    return true;
+  }
+  return false;
+}
+
+void FlowStepper::shortenFailed(Search& search) {
+  // What jumps there may be possible only at its middle: 1/(2 + sign u) where u may be zero.
+  const bool isLate = search.attempt >= 3 || search.h < 0x1p25 * search.quantum;
+  if (isLate && series_.hasJumps() && adapts(search)) return;
+  search.h *= std::min(0.6, 1 / series_.haste());
+  caution_ = std::max(caution_ * 0.8, 0x1p-6);
+}
+
+void FlowStepper::take(const Search& search) {
+  h_ = search.h;
+  theta_ = h_ / h0_;
+  isCut_ = h_ == search.left && search.suggested > search.left;
+  boundDerivatives();
+  boundCrossings(search.set);
+  boundArrivals(search.set);
+  if (turn_ || !crossings_.empty()) caution_ = search.set.caution;  // what failed here says nothing of the next step
+  if (h_ < search.left)
+    caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
+  caution_ = std::clamp(caution_, 0x1p-6, 2.0);
+}
+
+/// The one kink that is crossed, as a turn of it.
+bool FlowStepper::passesAsTurn(Search& search) {
+  if (crossings_.size() != 1 || crossings_.front().kink < 0 || !mayPassAsTurn(at(crossings_.front().kink)))
+    return false;
+  passing_ = at(crossings_.front().kink);
+  passingFrom_ = crossings_.front().before;
+  symbolAcross_ = -1;
+  computeAnew(search);
+  return true;
+}
+
+StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, const SplitShares& shares) {
+  constexpr int most = 24;
+  const std::uint64_t begun = Work::counted();
+  begin(set, end);
+  Search search{set, end, end - set.t, quantum, 1024 * quantum};
+  search.suggested = search.h = expand(set, search.left, search.smallest);
+  if (!(search.h > 0)) {
+    obstacle_ = search.h == 0 ? "" : "a number that is not finite";
     why_ = reason(set);
     return StepOutcome::failed;
   }
-  const double suggested = h;
-  h = std::min({h, h0_, left});
-  if (set.dampedStep > 0) h = std::min(h, set.dampedStep);
-  bool isAdapted = false;
-  const auto compute = [&] {
-    load(set);
-    series_.compute(set.t, h0_);
-  };
-  for (int attempt = 0; attempt < 24; ++attempt) {
-    if (h < left) h = onGrid(h);
-    if (!(h >= smallest || h == left) || h <= 0) break;
+  search.h = std::min({search.h, h0_, search.left});
+  if (set.dampedStep > 0) search.h = std::min(search.h, set.dampedStep);
+  for (; search.attempt < most; ++search.attempt) {
+    double& h = search.h;
+    if (h < search.left) h = std::floor(h / quantum) * quantum;
+    if (!(h >= search.smallest || h == search.left) || h <= 0) break;
     if (givenAt_ > 0 && h > givenAt_) {  // signs that were given are those of a shorter step
       givenAt_ = signsAt_ = 0;
-      forgetCrossings();
-      isAdapted = false;
-      compute();
+      computeAnew(search);
     }
-    if (tryStep(set, h / h0_)) {
-      const int patience = growth_.isDamped() || monomials().symbols() >= many ? 12 : 3;  // growth says little of both
-      if (timeError_ > 5 * tolerance_ && attempt < patience) {
-        const double factor = std::pow(tolerance_ / timeError_, 1.0 / (m_ + 1));
-        caution_ *= factor;
-        h *= factor;
-        continue;
-      }
-      // Of a machine at rest it is errors that move, faster than it does itself; of a damped one as well.
-      const bool asksForFrame = growth_.isDamped() || series_.count() > 1;
-      if (asksForFrame && attempt < patience && frameError_ > mostOfFrame) {
-        h *= std::max(0.25, 0.9 * std::pow(mostOfFrame / frameError_, 1.0 / (m_ + 1)));
-        continue;
-      }
-      // Stiff, or so much is left over: the comparison with |Df| would lose a factor e^{growth} a step.
-      const double most = inputs_.empty() || !isLooserThanDriven() ? (monomials().symbols() < many ? mostGrowth
-                                                                      : growth_.isAbout()          ? mostGrowthAbout
-                                                                                                   : mostGrowthOfMany)
-                                                                   : mostGrowthOfInputs;
-      if (growth_.growth() > most && attempt < patience) {
-        h *= 0.75 * most / growth_.growth();
-        continue;
-      }
-      if (own_ || holding_ || kinks_) {
-        const double least = 0x1p14 * quantum;
-        crossings_.clear();
-        turn_.reset();
-        Look look = own_ || holding_ ? lookAtJumps(set, h, least, left) : Look::goOn;
-        if (look == Look::goOn && kinks_) look = lookAtKinks(set, h, least, left);
-        if (look == Look::released) return StepOutcome::released;
-        if (look == Look::unsided) {
-          forgetCrossings();
-          isAdapted = false;
-          compute();
-          continue;
-        }
-        if (look == Look::shorter || look == Look::longer) {
-          isShortened_ = true;
-          if (h > h0_) {
-            while (h0_ < h) h0_ *= 2;
-            compute();
-          }
-          --attempt;
-          continue;
-        }
-        if (look == Look::again) {
-          compute();
-          continue;
-        }
-        if (h > left && !turn_) {
-          h = left;
-          continue;
-        }
-      }
-      if (inputs_.haste() > 1 && attempt < 12 && h > 0x1p33 * quantum) {  // 1e-6 of the horizon
-        h /= std::min(inputs_.haste() * 1.1, 16.0);
-        continue;
-      }
-      if (series_.haste() > 1 && attempt < 12 && h > 0x1p23 * quantum) {  // 1e-9 of the horizon
-        h /= series_.haste();
-        continue;
-      }
-      if (!isAdapted && series_.hasKinks() && series_.adaptToCrossings()) {
-        isAdapted = true;
-        compute();
-        continue;
-      }
-      h_ = h;
-      theta_ = h / h0_;
-      isCut_ = h == left && suggested > left;
-      boundDerivatives();
-      boundCrossings(set);
-      boundArrivals(set);
-      if (turn_ || !crossings_.empty()) caution_ = set.caution;  // what failed here says nothing of the next step
-      if (h < left)
-        caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
-      caution_ = std::clamp(caution_, 0x1p-6, 2.0);
-      certified_ = static_cast<double>(Work::counted() - begun) - ofGenerators_;
-      if (isTruncationTooLarge(shares.truncation)) return StepOutcome::splitWanted;
-      if (!((isAdapted || isSliding_) && isKinkTooWide(set, shares))) return StepOutcome::stepped;
-      if (crossings_.size() == 1 && crossings_.front().kink >= 0 && mayPassAsTurn(at(crossings_.front().kink))) {
-        passing_ = at(crossings_.front().kink);
-        passingFrom_ = crossings_.front().before;
-        symbolAcross_ = -1;
-        forgetCrossings();
-        isAdapted = false;
-        compute();
-        continue;
-      }
-      return StepOutcome::splitWanted;
-    }
-    // What jumps there may be possible only at its middle: 1/(2 + sign u) where u may be zero.
-    const bool isLate = attempt >= 3 || h < 0x1p25 * quantum;
-    if (isLate && !isAdapted && series_.hasJumps() && series_.adaptToCrossings()) {
-      isAdapted = true;
-      compute();
+    if (!tryStep(set, h / h0_)) {
+      shortenFailed(search);
       continue;
     }
-    h *= std::min(0.6, 1 / series_.haste());
-    caution_ = std::max(caution_ * 0.8, 0x1p-6);
+    if (isShortenedForErrors(search)) continue;
+    if (own_ || holding_ || kinks_) {
+      const Look look = lookAround(search);
+      if (look == Look::released) return StepOutcome::released;
+      if (look != Look::goOn) continue;
+    }
+    if (isShortenedForHaste(search) || (series_.hasKinks() && adapts(search))) continue;
+    take(search);
+    certified_ = static_cast<double>(Work::counted() - begun) - ofGenerators_;
+    if (isTruncationTooLarge(shares.truncation)) return StepOutcome::splitWanted;
+    if (!((search.isAdapted || isSliding_) && isKinkTooWide(set, shares))) return StepOutcome::stepped;
+    if (!passesAsTurn(search)) return StepOutcome::splitWanted;
   }
   why_ = reason(set);
   return StepOutcome::failed;
