@@ -49,8 +49,7 @@ std::vector<Interval> FlowAsides::enclose(double t, const FlowPoint& point, cons
   if (!isBounded) series_.clear();
   if (isBounded && !series_.hasKinks() && !series_.hasJumps()) return found;
   if (!plain_) plain_.emplace(values_);  // knows more at kinks, and of the others where one has no value for some ξ
-  std::vector<Interval> ranges;
-  for (const Embedded& p : parameters) ranges.push_back(rangeOf(p));
+  const Box ranges = rangesOf(parameters);
   for (std::size_t o = 0; o < found.size(); ++o)
     found[o] = intersection(found[o], plain_->over(static_cast<int>(o), Interval(t), states, ranges));
   return found;

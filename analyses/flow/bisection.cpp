@@ -127,18 +127,8 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
       }
       addFramed(s, moved);
     }
-    for (Embedded& p : s.parameters)
-      if (p.symbol == symbol) {
-        const double moved = p.half * middle;  // exact: a power of two
-        const double centre = p.centre + moved;
-        p.radius = (p.radius + bounds::unit * std::fabs(centre)) * bounds::up + bounds::tiny;
-        p.centre = centre;
-        p.half *= 0.5;
-      }
-    if (symbol < static_cast<int>(s.centre.size())) {
-      s.centre[at(symbol)] += s.half[at(symbol)] * middle;
-      s.half[at(symbol)] *= 0.5;
-    }
+    halve(s.parameters, symbol, middle);
+    halve(s.centre, s.half, symbol, middle);
   }
   set = std::move(halves[0]);
   return std::move(halves[1]);

@@ -169,6 +169,28 @@ Interval rangeOf(const Embedded& value) {
   return inflated(inflated(Interval(value.centre), std::fabs(value.half)), value.coarseRadius());
 }
 
+Box rangesOf(const std::vector<Embedded>& values) {
+  Box ranges;
+  for (const Embedded& value : values) ranges.push_back(rangeOf(value));
+  return ranges;
+}
+
+void halve(std::vector<Embedded>& values, int symbol, double middle) {
+  for (Embedded& value : values) {
+    if (value.symbol != symbol) continue;
+    const double centre = value.centre + value.half * middle;  // the product is exact: a power of two
+    value.radius = (value.radius + bounds::unit * std::fabs(centre)) * bounds::up + bounds::tiny;
+    value.centre = centre;
+    value.half *= 0.5;
+  }
+}
+
+void halve(std::vector<double>& centre, std::vector<double>& half, int symbol, double middle) {
+  if (at(symbol) >= half.size()) return;  // one of a remainder's own
+  centre[at(symbol)] += half[at(symbol)] * middle;
+  half[at(symbol)] *= 0.5;
+}
+
 void requireThat(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument(what);
 }

@@ -75,8 +75,13 @@ int automaticFrameDegree(int symbols, int degree);
 /// range + [-radius, radius]; the whole line for a radius that is infinite or no number.
 Interval inflated(const Interval& range, double radius);
 
-/// All that the number may be.
+/// All that the number may be; that all of them may.
 Interval rangeOf(const Embedded& value);
+Box rangesOf(const std::vector<Embedded>& values);
+
+/// From now on ξ_symbol = middle + ξ'/2, middle ±1/2, of numbers and of a piece, centre + half·ξ.
+void halve(std::vector<Embedded>& values, int symbol, double middle);
+void halve(std::vector<double>& centre, std::vector<double>& half, int symbol, double middle);
 
 /// Throws std::invalid_argument unless the condition holds.
 void requireThat(bool condition, const std::string& what);

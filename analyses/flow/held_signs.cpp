@@ -86,11 +86,9 @@ int HeldSigns::worstSymbol(std::size_t jump, double sigma) const {
     const double* c = series().series(node) + g * series().stride();
     double sum = 0;
     for (int order = series().stride(); order-- > 0;) sum = sum * sigma + c[order];
-    for (std::size_t l = 0; l < mass.size(); ++l)
-      if (monomials.exponent(g, static_cast<int>(l)) > 0) mass[l] += std::fabs(sum);
+    monomials.addMass(g, std::fabs(sum), mass);
   }
-  const auto worst = std::ranges::max_element(mass);
-  return worst == mass.end() || !(*worst > 0) ? -1 : static_cast<int>(worst - mass.begin());
+  return greatestOf(mass);
 }
 
 /// B S Bᵀ is positive definite with S, and is so if each of its diagonal is above the sum of what is beside it; B about

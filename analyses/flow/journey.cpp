@@ -473,8 +473,7 @@ void FlowFollower::encloseBetween(const FlowPiece& piece, double tau, std::vecto
 void FlowFollower::giveSigns(const FlowPiece& piece, std::vector<SignCases> signs) {
   given_ = std::move(signs);
   parameters_ = piece.set.parameters;
-  parameterBox_.clear();
-  for (const Embedded& parameter : parameters_) parameterBox_.push_back(rangeOf(parameter));
+  parameterBox_ = rangesOf(parameters_);
   for (const SignCases& sign : given_) {
     const Interval range = sign.hull();
     parameters_.push_back({midpoint(range), 0, isThin(range) ? 0.0 : radius(range)});

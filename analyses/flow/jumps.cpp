@@ -147,10 +147,7 @@ void FlowJumps::Held::matchTo(const FlowJumps& jumps) {
 JumpBounder::JumpBounder(const FlowJumps& jumps)
     : jumps_(jumps), given_(jumps.given), results_(at(jumps.given.outputs())) {}
 
-void JumpBounder::setParameters(const std::vector<Embedded>& parameters) {
-  parameters_.clear();
-  for (const Embedded& e : parameters) parameters_.push_back(rangeOf(e));
-}
+void JumpBounder::setParameters(const std::vector<Embedded>& parameters) { parameters_ = rangesOf(parameters); }
 
 /// Of the argument, with its sign given.
 Interval JumpBounder::rate(std::size_t jump, double sign, const Interval& time, const Box& box,
@@ -225,11 +222,7 @@ Interval JumpBounder::pressure(const RestingJumps& rest, const Interval& time, c
 }
 
 void JumpBounder::narrow(const LinearForm& form, const Interval& argument, Box& box) const {
-  Interval others = form.constant;
-  for (std::size_t k = 0; k < parameters_.size(); ++k)
-    if (form.parameters[k] != 0) others += Interval(form.parameters[k]) * parameters_[k];
-  for (std::size_t j = 0; j < box.size(); ++j)
-    if (form.states[j] != 0 && j != at(form.pivot)) others += Interval(form.states[j]) * box[j];
+  const Interval others = rangeWithout(at(form.pivot), form, box, parameters_);
   Interval& pivot = box[at(form.pivot)];
   const Interval both = intersection(pivot, (argument - others) / Interval(form.states[at(form.pivot)]));
   if (!isEmpty(both)) pivot = both;
@@ -394,14 +387,9 @@ namespace {
 
 /// Every state of the form by what the form is; false if there is none.
 bool narrowAll(const LinearForm& form, const Interval& argument, const Box& parameters, Box& states) {
-  Interval rest = form.constant;
-  for (std::size_t k = 0; k < parameters.size(); ++k)
-    if (form.parameters[k] != 0) rest += Interval(form.parameters[k]) * parameters[k];
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (form.states[i] == 0) continue;
-    Interval others = rest;
-    for (std::size_t j = 0; j < states.size(); ++j)
-      if (j != i && form.states[j] != 0) others += Interval(form.states[j]) * states[j];
+    const Interval others = rangeWithout(i, form, states, parameters);
     states[i] = intersection(states[i], (argument - others) / Interval(form.states[i]));
     if (isEmpty(states[i])) return false;
   }

@@ -68,17 +68,9 @@ void FlowKinks::bound(const Interval& time, const Box& box, const std::vector<Em
                       std::vector<Interval>& u, std::vector<Interval>& rates) {
   time_ = time;
   box_ = box;
-  all_.clear();
+  all_ = rangesOf(parameters);
   u.clear();
-  for (const Embedded& e : parameters) all_.push_back(rangeOf(e));
-  for (const LinearForm& form : forms_) {
-    Interval sum = form.constant;
-    for (std::size_t i = 0; i < box.size(); ++i)
-      if (form.states[i] != 0) sum += Interval(form.states[i]) * box[i];
-    for (std::size_t q = 0; q < parameters.size(); ++q)
-      if (form.parameters[q] != 0) sum += Interval(form.parameters[q]) * all_[q];
-    u.push_back(sum);
-  }
+  for (const LinearForm& form : forms_) u.push_back(rangeOf(form, box, all_));
   for (const Interval& argument : u) all_.push_back(abs(argument));
   f_.setParameters(all_);
   std::vector<Interval> f(box.size());

@@ -2,6 +2,7 @@
 // above one keeps a symbol to low powers. The set is closed under division, so truncated products are sums over pairs.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -29,6 +30,11 @@ class Monomials {
   int grade(int g) const { return grade_[static_cast<std::size_t>(g)]; }
   int exponent(int g, int symbol) const {
     return exponent_[static_cast<std::size_t>(g) * weight_.size() + static_cast<std::size_t>(symbol)];
+  }
+  /// Adds `size` to what `mass` has of each symbol in the monomial.
+  void addMass(int g, double size, std::vector<double>& mass) const {
+    for (std::size_t l = 0; l < mass.size(); ++l)
+      if (exponent(g, static_cast<int>(l)) > 0) mass[l] += size;
   }
   /// ∏(α_l + 1): how many pairs of monomials have product g.
   double multiplicity(int g) const {
@@ -60,5 +66,11 @@ class Monomials {
   std::vector<int> linear_;
   std::map<std::vector<std::uint8_t>, int> number_;
 };
+
+/// Which of these numbers is the greatest; -1 where none is above zero.
+inline int greatestOf(const std::vector<double>& mass) {
+  const auto most = std::ranges::max_element(mass);
+  return most == mass.end() || !(*most > 0) ? -1 : static_cast<int>(most - mass.begin());
+}
 
 }  // namespace gamut

@@ -36,6 +36,30 @@ Program turnOf(Recorder& recorder, const std::vector<int>& after, int guard, int
   return recorder.finish(outputs);
 }
 
+/// The nodes of ẋ = f on these sides.
+std::vector<int> ratesOn(Recorder& recorder, const Program& f, const std::vector<Side>& sides) {
+  const Program program = onSides(f, sides);
+  const std::vector<int> here = recorder.append(program);
+  std::vector<int> rates;
+  for (int i = 0; i < f.states(); ++i) rates.push_back(here[at(program.outputNodes()[at(i)])]);
+  return rates;
+}
+
+/// The guard's rate along ẋ = these.
+int growthAlong(Recorder& recorder, int guard, const std::vector<int>& rates) {
+  std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
+  for (std::size_t i = 0; i < rates.size(); ++i) seeds.emplace_back(recorder.state(static_cast<int>(i)), rates[i]);
+  return tangents(recorder, {guard}, seeds).front();
+}
+
+/// withOpenSignsGiven of jumps of which all but the open ones are left.
+Program onlyHeld(const FlowJumps& jumps, const std::vector<char>& held) {
+  Program f = withOpenSignsGiven(jumps.f, held);
+  if (jumpsOf(f).size() != held.size() - static_cast<std::size_t>(std::ranges::count(held, 0)))
+    throw std::logic_error("signs become one or zero where others are given");
+  return f;
+}
+
 /// Outputs of jumps.given, where this sign is one or the other.
 std::vector<int> outputsOn(Recorder& recorder, const FlowJumps& jumps, std::size_t jump, double sign) {
   const Program& given = jumps.given;
@@ -56,41 +80,31 @@ Program followingOf(const Program& along) {
 }  // namespace
 
 Program releaseOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_t jump, double side) {
-  const Program f = withOpenSignsGiven(jumps.f, held);
+  const Program f = onlyHeld(jumps, held);
+  Recorder recorder(f.states(), f.parameters());
   std::vector<Side> sides;
   std::size_t which = 0;
   for (std::size_t j = 0; j < held.size(); ++j) {
     if (j == jump) which = sides.size();
     if (held[j] != 0) sides.push_back(Side::held);
   }
-  if (jumpsOf(f).size() != sides.size()) throw std::logic_error("signs become one or zero where others are given");
-  const std::size_t n = at(f.states());
-  Recorder recorder(f.states(), f.parameters());
-  const auto ratesOn = [&](Side of) {
+  const auto ratesWith = [&](Side of) {
     sides[which] = of;
-    const Program program = onSides(f, sides);
-    const std::vector<int> here = recorder.append(program);
-    std::vector<int> rates;
-    for (std::size_t i = 0; i < n; ++i) rates.push_back(here[at(program.outputNodes()[i])]);
-    return rates;
+    return ratesOn(recorder, f, sides);
   };
-  const std::vector<int> whileHeld = ratesOn(Side::held), free = ratesOn(side > 0 ? Side::above : Side::below),
-                         other = ratesOn(side > 0 ? Side::below : Side::above);
+  const std::vector<int> whileHeld = ratesWith(Side::held), free = ratesWith(side > 0 ? Side::above : Side::below),
+                         other = ratesWith(side > 0 ? Side::below : Side::above);
   const auto towardsSide = [&](const std::vector<int>& rates) {
     const LinearForm& form = *jumps.forms[jump];
     int sum = recorder.constant(0.0);
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < rates.size(); ++i)
       if (form.states[i] != 0)
         sum = recorder.add(sum, recorder.mul(recorder.constant(side * form.states[i]), rates[i]));
     return sum;
   };
-  const int guard = towardsSide(free);
-  const auto growthAlong = [&](const std::vector<int>& rates) {
-    std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
-    for (std::size_t i = 0; i < n; ++i) seeds.emplace_back(recorder.state(static_cast<int>(i)), rates[i]);
-    return tangents(recorder, {guard}, seeds).front();
-  };
-  return turnOf(recorder, free, guard, growthAlong(whileHeld), growthAlong(free), towardsSide(other));
+  const int guard = towardsSide(free), attracted = towardsSide(other);
+  const int ahead = growthAlong(recorder, guard, free), growth = growthAlong(recorder, guard, whileHeld);
+  return turnOf(recorder, free, guard, growth, ahead, attracted);
 }
 
 Program liftOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_t speed) {
@@ -98,12 +112,9 @@ Program liftOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_
   const RestingJumps& rest = *std::ranges::find_if(jumps.rests, isOf);
   std::vector<char> open = FlowJumps::bySigns(held);
   open[rest.position] = open[rest.speed] = atRest;
-  const Program f = withOpenSignsGiven(jumps.f, open);
-  if (jumpsOf(f).size() != at(static_cast<int>(open.size() - static_cast<std::size_t>(std::ranges::count(open, 0)))))
-    throw std::logic_error("signs become one or zero where others are given");
-  const std::size_t n = at(f.states());
+  const Program f = onlyHeld(jumps, open);
   Recorder recorder(f.states(), f.parameters());
-  const auto ratesOn = [&](bool isLifted) {
+  const auto ratesIf = [&](bool isLifted) {
     const auto leaving = [](bool rises) { return rises ? Side::above : Side::below; };
     std::vector<Side> sides;
     for (std::size_t j = 0; j < open.size(); ++j) {
@@ -111,23 +122,16 @@ Program liftOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_
       if (open[j] != atRest) continue;
       sides.push_back(!isLifted ? Side::between : leaving(j == rest.position ? rest.positionRises : rest.speedRises));
     }
-    const Program program = onSides(f, sides);
-    const std::vector<int> here = recorder.append(program);
-    std::vector<int> rates;
-    for (std::size_t i = 0; i < n; ++i) rates.push_back(here[at(program.outputNodes()[i])]);
-    return rates;
+    return ratesOn(recorder, f, sides);
   };
-  std::vector<int> atPlace = ratesOn(false);
+  std::vector<int> atPlace = ratesIf(false);
   atPlace[at(rest.states.position)] = atPlace[at(rest.states.speed)] = recorder.constant(0.0);
-  const std::vector<int> lifted = ratesOn(true);
+  const std::vector<int> lifted = ratesIf(true);
   const double scale = std::fabs(jumps.forms[speed]->states[at(rest.states.speed)]);
   const int guard = recorder.mul(recorder.constant(scale), lifted[at(rest.states.speed)]);
-  const auto growthAlong = [&](const std::vector<int>& rates) {
-    std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
-    for (std::size_t i = 0; i < n; ++i) seeds.emplace_back(recorder.state(static_cast<int>(i)), rates[i]);
-    return tangents(recorder, {guard}, seeds).front();
-  };
-  return turnOf(recorder, lifted, guard, growthAlong(atPlace), growthAlong(lifted), recorder.constant(1.0));
+  const int always = recorder.constant(1.0);
+  const int ahead = growthAlong(recorder, guard, lifted), growth = growthAlong(recorder, guard, atPlace);
+  return turnOf(recorder, lifted, guard, growth, ahead, always);
 }
 
 /// u̇ is affine in the sign: from u̇_b to u̇_-b, f as well, so that it is zero at f_b + u̇_b/(u̇_b - u̇_-b) (f_-b - f_b).

@@ -11,24 +11,47 @@ namespace gamut {
 
 using detail::at;
 
+Interval rangeOf(const LinearForm& form, std::span<const Interval> states, std::span<const Interval> parameters) {
+  Interval sum = form.constant;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (form.states[i] != 0) sum += Interval(form.states[i]) * states[i];
+  for (std::size_t k = 0; k < std::min(parameters.size(), form.parameters.size()); ++k)
+    if (form.parameters[k] != 0) sum += Interval(form.parameters[k]) * parameters[k];
+  return sum;
+}
+
+Interval rangeWithout(std::size_t but, const LinearForm& form, std::span<const Interval> states,
+                      std::span<const Interval> parameters) {
+  Interval sum = rangeOf(form, {}, parameters);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (form.states[i] != 0 && i != but) sum += Interval(form.states[i]) * states[i];
+  return sum;
+}
+
+namespace {
+
+/// a + by b, if its coefficients are exact.
+std::optional<LinearForm> combined(const LinearForm& a, const Interval& by, const LinearForm& b) {
+  LinearForm sum = a;
+  bool isExact = true;
+  const auto add = [&](double& to, double more) {
+    const Interval exact = Interval(to) + by * Interval(more);
+    isExact = isExact && isThin(exact);
+    to = exact.lower();
+  };
+  for (std::size_t i = 0; i < sum.states.size(); ++i) add(sum.states[i], b.states[i]);
+  for (std::size_t i = 0; i < sum.parameters.size(); ++i) add(sum.parameters[i], b.parameters[i]);
+  sum.constant = a.constant + by * b.constant;
+  return isExact ? std::optional(sum) : std::nullopt;
+}
+
+}  // namespace
+
 std::optional<LinearForm> linearFormOf(const Program& f, int node) {
   std::vector<std::optional<LinearForm>> forms;
   LinearForm zero;
   zero.states.assign(at(f.states()), 0.0);
   zero.parameters.assign(at(f.parameters()), 0.0);
-  const auto combined = [](const LinearForm& a, const Interval& by, const LinearForm& b) -> std::optional<LinearForm> {
-    LinearForm sum = a;
-    bool isExact = true;
-    const auto add = [&](double& to, double more) {
-      const Interval exact = Interval(to) + by * Interval(more);
-      isExact = isExact && isThin(exact);
-      to = exact.lower();
-    };
-    for (std::size_t i = 0; i < sum.states.size(); ++i) add(sum.states[i], b.states[i]);
-    for (std::size_t i = 0; i < sum.parameters.size(); ++i) add(sum.parameters[i], b.parameters[i]);
-    sum.constant = a.constant + by * b.constant;
-    return isExact ? std::optional(sum) : std::nullopt;
-  };
   for (int i = 0; i <= node; ++i) {
     const Node& n = f.nodes()[at(i)];
     std::optional<LinearForm> form;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,12 @@ struct LinearForm {
   Interval constant{0.0};
   int pivot = 0;
 };
+
+/// u wherever states and parameters are in these.
+Interval rangeOf(const LinearForm& form, std::span<const Interval> states, std::span<const Interval> parameters);
+/// Likewise without what state `but` has in it.
+Interval rangeWithout(std::size_t but, const LinearForm& form, std::span<const Interval> states,
+                      std::span<const Interval> parameters);
 
 /// The form of a node, if it is one with exact coefficients, one of a state at least.
 std::optional<LinearForm> linearFormOf(const Program& f, int node);
