@@ -86,33 +86,17 @@ Box FlowStepper::boxAtStart(const FlowSet& set) const {
   return box;
 }
 
-FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double smallest, double left) {
+/// Wherever states are that are no farther than this from their polynomials in the step.
+Box FlowStepper::boxWithin(const std::vector<double>& reach) const {
   Box box;
-  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, y_[at(i)]));
-  std::vector<Interval> u, uAtStart, rates;
-  const Interval began(set.t);
-  kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
-  if (passing_ != none && contains(u[passing_], 0.0)) {
-    const Look look = turn_ ? Look::released : lookAtPassage(set, h, smallest);
-    if (look == Look::released) {  // known better otherwise
-      passing_ = none;
-      mayPass_ = std::exchange(isPassingAssumed_, false);
-      isTurnMixed_ = false;
-      lift_.clear();
-      return Look::unsided;
-    }
-    if (look != Look::goOn) return look;
-  }
-  kinks_->bound(began, boxAtStart(set), set.parameters, uAtStart, rates);
-  std::vector<JumpBound> bounds, atStart;
-  for (std::size_t k = 0; k < kinks_->count(); ++k) {
-    JumpBound& bound = atStart.emplace_back();
-    bound.start = bound.over = argumentOf(set, kinks_->form(k), total_, &monomials());
-    bound.up = bound.down = rates[k];
-  }
-  kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
-  // On their side before any has left it, solutions are those of the step, which do not. Rates are those of the step's
-  // own motion: of solutions that a release lets go they say nothing.
+  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, reach[at(i)]));
+  return box;
+}
+
+/// Whether a kink that was taken to be on one side may be met. On their side before any has left it, solutions are
+/// those of the step, which do not. Rates are those of the step's own motion: of solutions that a release lets go they
+/// say nothing.
+bool FlowStepper::leavesKinkSides(const std::vector<JumpBound>& atStart, const std::vector<Interval>& u, double h) {
   const bool areRatesOfAll = !turn_ || !turn_->releases();
   bool isLeft = false;
   for (std::size_t k = 0; k < kinkSides_.size(); ++k) {
@@ -122,35 +106,17 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     kinkSides_[k] = 0;
     isLeft = true;
   }
-  if (isLeft) return Look::unsided;
-  double longer = h;
+  return isLeft;
+}
+
+/// Kinks that are met in the step: those that move away stay on their side, others are passed, or tried as a turn.
+FlowStepper::Look FlowStepper::passKinks(const std::vector<JumpBound>& bounds, double h, double left) {
   bool isNew = false;
-  for (std::size_t k = 0; k < kinks_->count(); ++k) {
-    JumpBound& bound = bounds.emplace_back();
-    bound.start = atStart[k].start;
-    bound.over = u[k];
-    bound.up = bound.down = kinkRates_[k];
-  }
-  for (std::size_t k = 0; k < kinkSides_.size(); ++k)
-    if (k == passing_ || kinkSides_[k] != 0) bounds[k] = atStart[k] = {};
-  const double longest = longestToCross(bounds, atStart, h, smallest);
-  if (longest < 0.99 * h && h > smallest) {
-    h = std::max(longest, smallest);
-    return Look::shorter;
-  }
-  for (const JumpBound& bound : bounds)
-    if (const auto crossing = bound.crossing(); crossing && h < left && contains(bound.over, 0.0))
-      longer = std::max(longer, crossing->moment.upper() > h ? beyondTheLast * crossing->moment.upper() : 0.0);
-  constexpr int mostTries = 8;
-  if (longer > h && longer < 4 * h && ++lengthened_ < mostTries) {
-    h = std::min(longer, left);
-    return Look::longer;
-  }
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
     if (k == passing_ || (!kinkSides_.empty() && kinkSides_[k] != 0)) continue;
     // Those that move away stay on their side, or do not come so far.
     const Interval over = bounds[k].start + Interval(0.0, h) * kinkRates_[k];
-    if (!contains(u[k], 0.0) || contains(bounds[k].start, 0.0) || !isCommon(over)) continue;
+    if (!contains(bounds[k].over, 0.0) || contains(bounds[k].start, 0.0) || !isCommon(over)) continue;
     if (!contains(over, 0.0)) {
       if (!series_.giveSide(kinks_->node(k), over.lower() > 0 ? 1 : -1)) continue;
       givenAt_ = h;
@@ -179,17 +145,57 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
   return isNew ? Look::again : Look::goOn;
 }
 
-/// Before it passes, u = ũ + w with ũ = c·x̃ + …, w = c·(Ψ̃(r + Γs) + z + D of the others). From ũ(m(ξ)) = ε and u = 0
-/// follows moment = m(ξ) - (w + ε)/ũ', ũ' a mean of the polynomial's own rate. False if that may be zero.
-bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
-  const LinearForm& form = *crossing.form;
-  const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
-  const bool passAll = crossing.moments.upper() <= h_;  // else the horizon comes before
-  const double last = std::min(crossing.moments.upper(), h_) / h0_ * bounds::up;
-  // ũ by orders of σ; sums of n + parameters + 1 terms of two roundings each.
-  std::vector<BoundedPolynomial> u(orders, {std::vector<double>(N, 0.0)});
+FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double smallest, double left) {
+  const Box box = boxWithin(y_);
+  std::vector<Interval> u, uAtStart, rates;
+  const Interval began(set.t);
+  kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
+  if (passing_ != none && contains(u[passing_], 0.0)) {
+    const Look look = turn_ ? Look::released : lookAtPassage(set, h, smallest);
+    if (look == Look::released) {  // known better otherwise
+      passing_ = none;
+      mayPass_ = std::exchange(isPassingAssumed_, false);
+      isTurnMixed_ = false;
+      lift_.clear();
+      return Look::unsided;
+    }
+    if (look != Look::goOn) return look;
+  }
+  kinks_->bound(began, boxAtStart(set), set.parameters, uAtStart, rates);
+  kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
+  std::vector<JumpBound> bounds(u.size()), atStart(u.size());
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    atStart[k].start = atStart[k].over = bounds[k].start = argumentOf(set, kinks_->form(k), total_, &monomials());
+    atStart[k].up = atStart[k].down = rates[k];
+    bounds[k].over = u[k];
+    bounds[k].up = bounds[k].down = kinkRates_[k];
+  }
+  if (leavesKinkSides(atStart, u, h)) return Look::unsided;
+  for (std::size_t k = 0; k < kinkSides_.size(); ++k)
+    if (k == passing_ || kinkSides_[k] != 0) bounds[k] = atStart[k] = {};
+  const double longest = longestToCross(bounds, atStart, h, smallest);
+  if (longest < 0.99 * h && h > smallest) {
+    h = std::max(longest, smallest);
+    return Look::shorter;
+  }
+  double longer = h;
+  for (const JumpBound& bound : bounds)
+    if (const auto crossing = bound.crossing(); crossing && h < left && contains(bound.over, 0.0))
+      longer = std::max(longer, crossing->moment.upper() > h ? beyondTheLast * crossing->moment.upper() : 0.0);
+  constexpr int mostTries = 8;
+  if (longer > h && longer < 4 * h && ++lengthened_ < mostTries) {
+    h = std::min(longer, left);
+    return Look::longer;
+  }
+  return passKinks(bounds, h, left);
+}
+
+/// ũ along the step's polynomials, by orders of σ; sums of n + parameters + 1 terms of two roundings each.
+std::vector<BoundedPolynomial> FlowStepper::argumentAlong(const FlowSet& set, const LinearForm& form) const {
+  const std::size_t n = at(n_), N = at(series_.count());
+  std::vector<BoundedPolynomial> u(at(m_) + 1, {std::vector<double>(N, 0.0)});
   const double roundings = (2.0 * static_cast<double>(n + form.parameters.size()) + 4) * bounds::unit;
-  for (std::size_t order = 0; order < orders; ++order) {
+  for (std::size_t order = 0; order < u.size(); ++order) {
     double size = 0;
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t g = 0; g < N && form.states[i] != 0; ++g) {
@@ -199,56 +205,82 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
       }
     u[order].error = roundings * size * bounds::up + bounds::tiny;
   }
-  u[0].c[0] += midpoint(form.constant);
-  double size = std::fabs(midpoint(form.constant)), unknown = radius(form.constant);
-  for (std::size_t q = 0; q < form.parameters.size(); ++q) {
-    const double d = form.parameters[q];
-    const Embedded& e = set.parameters[q];
-    if (d == 0) continue;
-    u[0].c[0] += d * e.centre;
-    if (e.symbol >= 0) u[0].c[at(monomials().linear(e.symbol))] += d * e.half;
-    size += std::fabs(d) * (std::fabs(e.centre) + std::fabs(e.half));
-    unknown += std::fabs(d) * e.coarseRadius();
-  }
-  u[0].error = (u[0].error + roundings * (size + u[0].norm()) + unknown) * bounds::up;
+  LooseSum atOnce{std::move(u[0].c), radius(form.constant), std::fabs(midpoint(form.constant))};
+  atOnce.p[0] += midpoint(form.constant);
+  atOnce.addParameters(form, 1, set.parameters, monomials());
+  u[0].c = std::move(atOnce.p);
+  u[0].error = (u[0].error + roundings * (atOnce.size + u[0].norm()) + atOnce.loose) * bounds::up;
+  return u;
+}
 
-  const auto [moment, left, slope] = rootOf(monomials(), u, -u[0].c[0] / u[1].c[0]);
-  crossing.moment = moment;
-  // ũ' = Σ i u_i σ^{i-1}: everything but u_10 counts as what varies.
-  const double farthest = std::fabs(crossing.moment.c[0]) + crossing.moment.variation();
-  const double reach = std::max(last, passAll ? farthest : 1.25 * farthest);
-  double varies = u[1].variation() + u[1].error, power = reach;
-  for (std::size_t order = 2; order < orders; ++order, power *= reach)
-    varies += static_cast<double>(order) * power * u[order].norm();
-  const Interval rate = inflated(Interval(u[1].c[0]), varies * bounds::up) / Interval(h0_);
-  crossing.rate = slope / h0_;
-  if (contains(rate, 0.0) || !isCommon(rate) || !std::isfinite(crossing.rate) || crossing.rate == 0) return false;
-  const Interval perUnit = Interval(1.0) / rate;
-  double others = left;
+/// Adds what moves u besides ũ and what the set's remainder is at the step's start, until `last`, in units of σ.
+void FlowStepper::addBesides(const Crossing& crossing, double last, double& sum) const {
+  const LinearForm& form = *crossing.form;
+  const std::size_t n = at(n_);
   for (std::size_t i = 0; i < n; ++i) {
     if (form.states[i] == 0) continue;
     double own = crossed_[i] + driven_[i];
     for (int j = 0; j < n_; ++j)
       own += epsilon_[i * n + at(j)] * (total_[at(j)] + inputs_.total(j)) +
              last * series_.frameDerivativeNorm(static_cast<int>(i), j, 1, theta_) * total_[at(j)];
-    others += std::fabs(form.states[i]) * own;
+    sum += std::fabs(form.states[i]) * own;
   }
-  for (const Crossing& other : crossings_) {
-    const double since = (std::min(crossing.moments.upper(), h_) - other.moments.lower()) * bounds::up;
-    if (&other == &crossing || !(since > 0)) continue;
-    double leads = 0, most = 0, bent = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double c = std::fabs(form.states[i]);
-      bent += c * (0.5 * since * std::fabs(other.curvature[i]) + other.drift(i));
-      if (other.jump < 0) continue;
-      const Push push = pushOf(other, i);
-      leads += form.states[i] * push.leading();
-      most += c * std::fabs(push.leading());
-      bent += c * besides(push.norm(), push.leading());
-    }
-    others += std::fabs(other.change()) * since *
-              (std::fabs(leads) + 2 * static_cast<double>(n) * bounds::unit * most + bent);
+}
+
+/// What another crossing makes of u from its moment on.
+double FlowStepper::changedBy(const Crossing& other, const Crossing& crossing) const {
+  const double since = (std::min(crossing.moments.upper(), h_) - other.moments.lower()) * bounds::up;
+  if (&other == &crossing || !(since > 0)) return 0;
+  double leads = 0, most = 0, bent = 0;
+  for (std::size_t i = 0; i < at(n_); ++i) {
+    const double state = crossing.form->states[i], c = std::fabs(state);
+    bent += c * (0.5 * since * std::fabs(other.curvature[i]) + other.drift(i));
+    if (other.jump < 0) continue;
+    const Push push = pushOf(other, i);
+    leads += state * push.leading();
+    most += c * std::fabs(push.leading());
+    bent += c * besides(push.norm(), push.leading());
   }
+  return std::fabs(other.change()) * since *
+         (std::fabs(leads) + 2 * static_cast<double>(n_) * bounds::unit * most + bent);
+}
+
+/// The integral of ũ from the moment m(ξ) on, by orders of σ.
+std::vector<BoundedPolynomial> FlowStepper::areaOf(const std::vector<BoundedPolynomial>& u,
+                                                   const BoundedPolynomial& moment) const {
+  std::vector<BoundedPolynomial> area(1, {std::vector<double>(at(series_.count()), 0.0)});
+  for (std::size_t order = 0; order < u.size(); ++order)
+    area.emplace_back(u[order]) *= h0_ / static_cast<double>(order + 1);
+  for (std::size_t order = 1; order < area.size(); ++order)  // the quotient's own rounding
+    area[order].error += bounds::unit * area[order].norm();
+  area[0] = composed(monomials(), area, moment);
+  area[0] *= -1;
+  return area;
+}
+
+/// Before it passes, u = ũ + w with ũ = c·x̃ + …, w = c·(Ψ̃(r + Γs) + z + D of the others). From ũ(m(ξ)) = ε and u = 0
+/// follows moment = m(ξ) - (w + ε)/ũ', ũ' a mean of the polynomial's own rate. False if that may be zero.
+bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
+  const LinearForm& form = *crossing.form;
+  const std::size_t n = at(n_);
+  const bool passAll = crossing.moments.upper() <= h_;  // else the horizon comes before
+  const double last = std::min(crossing.moments.upper(), h_) / h0_ * bounds::up;
+  const std::vector<BoundedPolynomial> u = argumentAlong(set, form);
+  const auto [moment, left, slope] = rootOf(monomials(), u, -u[0].c[0] / u[1].c[0]);
+  crossing.moment = moment;
+  // ũ' = Σ i u_i σ^{i-1}: everything but u_10 counts as what varies.
+  const double farthest = std::fabs(crossing.moment.c[0]) + crossing.moment.variation();
+  const double reach = std::max(last, passAll ? farthest : 1.25 * farthest);
+  double varies = u[1].variation() + u[1].error, power = reach;
+  for (std::size_t order = 2; order < u.size(); ++order, power *= reach)
+    varies += static_cast<double>(order) * power * u[order].norm();
+  const Interval rate = inflated(Interval(u[1].c[0]), varies * bounds::up) / Interval(h0_);
+  crossing.rate = slope / h0_;
+  if (contains(rate, 0.0) || !isCommon(rate) || !std::isfinite(crossing.rate) || crossing.rate == 0) return false;
+  const Interval perUnit = Interval(1.0) / rate;
+  double others = left;
+  addBesides(crossing, last, others);
+  for (const Crossing& other : crossings_) others += changedBy(other, crossing);
   crossing.remainder = 0;
   for (std::size_t j = 0; j < n; ++j) {
     double sum = 0;
@@ -262,15 +294,7 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
   crossing.away = (crossing.remainder + others) * bounds::up * magnitude(perUnit);
   crossing.fastest = magnitude(rate);
   const double spread = crossing.moment.variation() * h0_ + crossing.away;
-  if (crossing.kink >= 0) {
-    crossing.area.assign(1, {std::vector<double>(N, 0.0)});
-    for (std::size_t order = 0; order < orders; ++order)
-      crossing.area.emplace_back(u[order]) *= h0_ / static_cast<double>(order + 1);
-    for (std::size_t order = 1; order <= orders; ++order)  // the quotient's own rounding
-      crossing.area[order].error += bounds::unit * crossing.area[order].norm();
-    BoundedPolynomial before = composed(monomials(), crossing.area, crossing.moment);
-    crossing.area[0] = before *= -1;
-  }
+  if (crossing.kink >= 0) crossing.area = areaOf(u, crossing.moment);
   crossing.moment *= h0_;
   crossing.moment.error = 0;  // a power of two, and m is what it is
   const Interval found = inflated(Interval(crossing.moment.c[0]), spread * bounds::up);
@@ -367,84 +391,97 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
   if (!isBounded) crossings_.clear();
 }
 
-/// ℓ at τ: min(moment, τ) is the chord over what the moments may be, and as much as the corner rises above that.
-void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point) const {
+/// ℓ at τ: min(moment, τ) is the chord over what the moments may be, and as much as the corner rises above that; and
+/// how steep that chord is.
+std::pair<BoundedPolynomial, double> FlowStepper::sinceCrossing(const Crossing& crossing, double tau) {
+  const double first = crossing.moments.lower(), last = crossing.moments.upper();
+  const double slope = tau >= last ? 1 : tau <= first ? 0 : (tau - first) / (last - first);
+  Interval rest(tau);
+  if (tau >= last)
+    rest = Interval(0.0);
+  else if (tau > first)
+    rest =
+        hull(hull(Interval(first) - Interval(slope) * Interval(first), Interval(tau) - Interval(slope) * Interval(tau)),
+             Interval(tau) - Interval(slope) * Interval(last));
+  const Interval constant = Interval(tau) - rest;
+  BoundedPolynomial l = crossing.moment;
+  l *= -slope;
+  l += {{midpoint(constant)}, radius(constant)};
+  l.error = (l.error + slope * crossing.off) * bounds::up;
+  return {std::move(l), slope};
+}
+
+/// ℓ²/2 at τ; of a kink the integral of ũ.
+BoundedPolynomial FlowStepper::areaSince(const Crossing& crossing, double tau, const BoundedPolynomial& l) const {
+  BoundedPolynomial area = crossing.kink >= 0 ? BoundedPolynomial{{0.0}} : product(monomials(), l, l);
+  area *= 0.5;
+  if (crossing.kink < 0) return area;
+  for (auto order = crossing.area.rbegin(); order != crossing.area.rend(); ++order) (area *= tau / h0_) += *order;
+  // ũ is at most fastest·away where m says that it is zero, and moves by no more.
+  const double late = std::max(0.0, crossing.moments.upper() - tau) + crossing.away;
+  area.error += 1.5 * crossing.fastest * (crossing.away * crossing.away + late * late);
+  double turned = 0;
+  for (std::size_t i = 0; i < at(n_); ++i)
+    for (std::size_t j = 0; j < at(n_); ++j)
+      turned += std::fabs(crossing.form->states[i]) * tau / h0_ *
+                series_.frameDerivativeNorm(static_cast<int>(i), static_cast<int>(j), 1, theta_) * total_[j];
+  area.error = (area.error + (tau - crossing.moments.lower()) * turned) * bounds::up;
+  return area;
+}
+
+/// ∂f_state/∂(sign) at τ, without what its orders leave out; zero of a kink.
+BoundedPolynomial FlowStepper::pushAt(const Crossing& crossing, std::size_t state, double tau) const {
+  BoundedPolynomial B{{0.0}};
+  if (crossing.jump < 0) return B;
+  const Push push = pushOf(crossing, state);
+  for (int order = crossing.arrives ? m_ + 1 : m_; order-- > 0;) {  // AlongStep has as many orders as states
+    BoundedPolynomial of;
+    for (int g = 0; g < push.of->count(push.node); ++g)
+      of.c.push_back(push.of->series(push.node)[g * push.of->stride() + order]);
+    (B *= tau / h0_) += of;
+  }
+  return B;
+}
+
+void FlowStepper::addCrossing(const FlowSet& set, const Crossing& crossing, double tau, FlowPoint& point) const {
   const std::size_t n = at(n_);
-  for (const Crossing& crossing : crossings_) {
-    const LinearForm& form = *crossing.form;
-    const double first = crossing.moments.lower(), last = crossing.moments.upper();
-    const double slope = tau >= last ? 1 : tau <= first ? 0 : (tau - first) / (last - first);
-    Interval rest(tau);
-    if (tau >= last)
-      rest = Interval(0.0);
-    else if (tau > first)
-      rest = hull(
-          hull(Interval(first) - Interval(slope) * Interval(first), Interval(tau) - Interval(slope) * Interval(tau)),
-          Interval(tau) - Interval(slope) * Interval(last));
-    const Interval constant = Interval(tau) - rest;
-    BoundedPolynomial l = crossing.moment;
-    l *= -slope;
-    l += {{midpoint(constant)}, radius(constant)};
-    l.error = (l.error + slope * crossing.off) * bounds::up;
-    const double linear = slope / crossing.rate, linearMost = std::fabs(linear) * crossing.remainder * bounds::up;
-    BoundedPolynomial second = crossing.kink >= 0 ? BoundedPolynomial{{0.0}} : product(monomials(), l, l);
-    second *= 0.5;
-    for (auto order = crossing.area.rbegin(); order != crossing.area.rend(); ++order) (second *= tau / h0_) += *order;
-    if (crossing.kink >= 0) {  // nothing of those that have not passed
-      if (tau <= first) continue;
-      // ũ is at most fastest·away where m says that it is zero, and moves by no more.
-      const double late = std::max(0.0, last - tau) + crossing.away;
-      second.error += 1.5 * crossing.fastest * (crossing.away * crossing.away + late * late);
-      double turned = 0;
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j)
-          turned += std::fabs(form.states[i]) * tau / h0_ *
-                    series_.frameDerivativeNorm(static_cast<int>(i), static_cast<int>(j), 1, theta_) * total_[j];
-      second.error = (second.error + (tau - first) * turned) * bounds::up;
+  const bool isKink = crossing.kink >= 0;
+  if (isKink && tau <= crossing.moments.lower()) return;  // nothing of those that have not passed
+  const auto [l, slope] = sinceCrossing(crossing, tau);
+  const double linear = slope / crossing.rate, linearMost = std::fabs(linear) * crossing.remainder * bounds::up;
+  const BoundedPolynomial area = areaSince(crossing, tau, l);
+  // c·C: n roundings of two; as many again for what is made of it.
+  const double roundings = (4.0 * static_cast<double>(n) + 12) * bounds::unit;
+  std::vector<double> ofFrame(n, 0.0);
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i) ofFrame[j] += crossing.form->states[i] * set.C[i * n + j];
+  for (std::size_t i = 0; i < n; ++i) {
+    const BoundedPolynomial B = pushAt(crossing, i, tau);
+    const double K = isKink ? crossing.push[i] : crossing.curvature[i];
+    const double by = crossing.change() * (isKink ? K * l.c[0] : linear * (B.c[0] + K * l.c[0]));
+    BoundedPolynomial added = area;
+    added *= K;
+    if (!isKink) added += product(monomials(), B, l);
+    added *= crossing.change();
+    double loose = added.error;
+    // (l + w)²/2 = l²/2 + l w + w²/2; of B and l the leading coefficients are in `by`. Of a kink, l w.
+    const double most = isKink ? crossing.remainder : linearMost;
+    loose += std::fabs(crossing.change()) * most *
+             (B.variation() + B.error + std::fabs(K) * (l.variation() + l.error + 0.5 * linearMost) +
+              roundings * (std::fabs(B.c[0]) + std::fabs(K * l.c[0])));
+    for (std::size_t g = 0; g < added.c.size(); ++g) {
+      double& p = point.p[i * at(series_.count()) + g];
+      p += added.c[g];
+      loose += bounds::unit * std::fabs(p);
     }
-    // c·C: n roundings of two; as many again for what is made of it.
-    const double roundings = (4.0 * static_cast<double>(n) + 12) * bounds::unit;
-    std::vector<double> ofFrame(n, 0.0);
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t i = 0; i < n; ++i) ofFrame[j] += form.states[i] * set.C[i * n + j];
-    for (std::size_t i = 0; i < n; ++i) {
-      const bool isJump = crossing.jump >= 0;
-      std::vector<BoundedPolynomial> orders;
-      const int kept = crossing.arrives ? m_ + 1 : m_;  // AlongStep has as many orders as states
-      for (int order = 0; order < kept && isJump; ++order) {
-        const Push push = pushOf(crossing, i);
-        BoundedPolynomial& of = orders.emplace_back();
-        for (int g = 0; g < push.of->count(push.node); ++g)
-          of.c.push_back(push.of->series(push.node)[g * push.of->stride() + order]);
-      }
-      BoundedPolynomial B{{0.0}};
-      for (auto order = orders.rbegin(); order != orders.rend(); ++order) (B *= tau / h0_) += *order;
-      const double K = crossing.kink >= 0 ? crossing.push[i] : crossing.curvature[i];
-      const double by = crossing.change() * (crossing.kink >= 0 ? K * l.c[0] : linear * (B.c[0] + K * l.c[0]));
-      BoundedPolynomial added = second;  // ℓ²/2, or of a kink the integral
-      added *= K;
-      if (isJump) added += product(monomials(), B, l);
-      added *= crossing.change();
-      double loose = added.error;
-      // (l + w)²/2 = l²/2 + l w + w²/2; of B and l the leading coefficients are in `by`. Of a kink, l w.
-      const double most = crossing.kink >= 0 ? crossing.remainder : linearMost;
-      loose += std::fabs(crossing.change()) * most *
-               (B.variation() + B.error + std::fabs(K) * (l.variation() + l.error + 0.5 * linearMost) +
-                roundings * (std::fabs(B.c[0]) + std::fabs(K * l.c[0])));
-      for (std::size_t g = 0; g < added.c.size(); ++g) {
-        double& p = point.p[i * at(series_.count()) + g];
-        p += added.c[g];
-        loose += bounds::unit * std::fabs(p);
-      }
-      for (std::size_t j = 0; j < n; ++j) {
-        // What inputs do in the step itself is no part of the set at its start.
-        loose += std::fabs(by * ofFrame[j]) * inputs_.total(static_cast<int>(j));
-        double& psi = point.psi[i * n + j];
-        psi += by * ofFrame[j];
-        loose += bounds::unit * std::fabs(psi) * point.total[j];
-      }
-      point.loose[i] += loose * bounds::up + bounds::tiny;
+    for (std::size_t j = 0; j < n; ++j) {
+      // What inputs do in the step itself is no part of the set at its start.
+      loose += std::fabs(by * ofFrame[j]) * inputs_.total(static_cast<int>(j));
+      double& psi = point.psi[i * n + j];
+      psi += by * ofFrame[j];
+      loose += bounds::unit * std::fabs(psi) * point.total[j];
     }
+    point.loose[i] += loose * bounds::up + bounds::tiny;
   }
 }
 

@@ -34,45 +34,57 @@ double FlowInputs::push(const PolynomialSeries& series, int i) const {
   return sum * bounds::up;
 }
 
-void FlowInputs::resolve(const PolynomialSeries& series, const FlowGrowth& growth, double theta, double h) {
-  const int m = count();
-  generators_.clear();
-  total_.assign(at(n_), 0.0);
-  rest_.assign(at(n_), 0.0);
-  haste_ = 0;
-  if (m == 0) return;
-  const auto horner = [&](const double* c, int order, double sigma) {
+/// Of a step: Ψ̃ and B̃ at one time; of B̃ - Ψ̃ĝ over the step, how fast Ψ̃ moves, and what neither time nor a constant ĝ
+/// can cancel.
+struct FlowInputs::Course {
+  const PolynomialSeries& series;
+  double theta;
+  Eigen::MatrixXd psi, B;
+  Eigen::MatrixXd speed, variation, size;  // of Ψ̃
+};
+
+FlowInputs::Course FlowInputs::courseOf(const PolynomialSeries& series, double theta) const {
+  const Eigen::MatrixXd square(n_, n_);
+  Course course{series, theta, square, Eigen::MatrixXd(n_, count()), square, square, square};
+  for (int i = 0; i < n_; ++i)
+    for (int l = 0; l < n_; ++l) {
+      course.speed(i, l) = series.frameDerivativeNorm(i, l, 1, theta);
+      course.variation(i, l) = series.frameVariation(i, l);
+      course.size(i, l) = series.frameNorm(i, l);
+    }
+  return course;
+}
+
+/// ĝ at σ.
+Eigen::MatrixXd FlowInputs::solve(Course& course, double sigma) const {
+  const auto horner = [&](const double* c, int order) {
     double sum = 0;
     for (int i = order; i >= 0; --i) sum = sum * sigma + c[i];
     return sum;
   };
-  Eigen::MatrixXd psi(n_, n_), B(n_, m);
-  const auto evaluate = [&](double sigma) {
-    for (int i = 0; i < n_; ++i) {
-      for (int l = 0; l < n_; ++l) psi(i, l) = horner(series.frame(i, l), order_, sigma);
-      for (int k = 0; k < m; ++k) B(i, k) = horner(series.series(node(series, i, k)), order_ - 1, sigma);
-    }
-  };
-  // Of B̃ - Ψ̃ĝ over the step: how fast it moves, and what neither time nor a constant ĝ can cancel.
-  Eigen::MatrixXd ofFrame(n_, n_), xiOfFrame(n_, n_), sizeOfFrame(n_, n_);
-  for (int i = 0; i < n_; ++i)
-    for (int l = 0; l < n_; ++l) {
-      ofFrame(i, l) = series.frameDerivativeNorm(i, l, 1, theta);
-      xiOfFrame(i, l) = series.frameVariation(i, l);
-      sizeOfFrame(i, l) = series.frameNorm(i, l);
-    }
-  const auto speed = [&](int i, int k, const Eigen::VectorXd& g) {
-    return series.derivativeNorm(node(series, i, k), 1, theta) + ofFrame.row(i).dot(g);
-  };
-  // As many parts as keep the rest small: on the average a quarter of a part's length away from its middle. All states
-  // together must be so well known; each by itself, against what may come of B in the step through others, where a few
-  // parts do it (no shorter step would).
-  evaluate(0.5 * theta);
-  Eigen::MatrixXd g = psi.partialPivLu().solve(B);
+  for (int i = 0; i < n_; ++i) {
+    for (int l = 0; l < n_; ++l) course.psi(i, l) = horner(course.series.frame(i, l), order_);
+    for (int k = 0; k < count(); ++k)
+      course.B(i, k) = horner(course.series.series(node(course.series, i, k)), order_ - 1);
+  }
+  return course.psi.partialPivLu().solve(course.B);
+}
+
+/// How fast B̃ - Ψ̃ĝ moves, |ĝ| = g.
+double FlowInputs::speedOf(const Course& course, int i, int k, const Eigen::VectorXd& g) const {
+  return course.series.derivativeNorm(node(course.series, i, k), 1, course.theta) + course.speed.row(i).dot(g);
+}
+
+/// As many parts as keep the rest small: on the average a quarter of a part's length away from its middle. All states
+/// together must be so well known; each by itself, against what may come of B in the step through others, where a few
+/// parts do it (no shorter step would).
+void FlowInputs::choosePartsOf(Course& course, const FlowGrowth& growth, double h) {
+  const PolynomialSeries& series = course.series;
+  const Eigen::MatrixXd g = solve(course, 0.5 * course.theta);
   Eigen::VectorXd moving = Eigen::VectorXd::Zero(n_), driving = moving;
   for (int i = 0; i < n_; ++i)
-    for (int k = 0; k < m; ++k) {
-      moving(i) += radius_[at(k)] * speed(i, k, g.col(k).cwiseAbs()) * theta / 4;
+    for (int k = 0; k < count(); ++k) {
+      moving(i) += radius_[at(k)] * speedOf(course, i, k, g.col(k).cwiseAbs()) * course.theta / 4;
       const int b = node(series, i, k);  // its value may pass through zero
       driving(i) += radius_[at(k)] * (series.norm(b) + series.rho0(b) + series.rho1(b));
     }
@@ -93,35 +105,49 @@ void FlowInputs::resolve(const PolynomialSeries& series, const FlowGrowth& growt
   const double least = each < fewParts ? each : fewParts;
   parts_ = static_cast<int>(std::ceil(std::clamp(wanted, least, mostParts)));
   haste_ = wanted / mostParts;
+}
 
-  std::vector<double> turning(at(n_), 0.0), constant(at(n_), 0.0);
-  const double length = h / parts_, half = theta / (2 * parts_) * bounds::up;
-  for (int part = 0; part < parts_; ++part) {
-    evaluate(theta * (part + 0.5) / parts_);
-    g = psi.partialPivLu().solve(B);
-    const Eigen::MatrixXd off = (B - psi * g).cwiseAbs();
-    std::vector<double> turningNow(at(n_), 0.0), constantNow(at(n_), 0.0);
-    for (int k = 0; k < m; ++k) {
-      const Eigen::VectorXd size = g.col(k).cwiseAbs();
-      for (int i = 0; i < n_; ++i) {
-        const int b = node(series, i, k);
-        // Horner's scheme 2·order roundings, the product n; the difference, the middle's place, ĝ c below: one each.
-        const double rounding = (2 * order_ + n_ + 6) * bounds::unit * (series.norm(b) + sizeOfFrame.row(i).dot(size));
-        turningNow[at(i)] += radius_[at(k)] * speed(i, k, size) * half;
-        constantNow[at(i)] += radius_[at(k)] * (off(i, k) + rounding + series.variation(b) +
-                                                xiOfFrame.row(i).dot(size) + series.meanRho0(b) + series.meanRho1(b));
-      }
-      const double reach = radius_[at(k)] * length * bounds::up;  // ≥ |∫u| over the part
-      for (int i = 0; i < n_; ++i) {
-        generators_.push_back(g(i, k) * reach);
-        total_[at(i)] += std::fabs(generators_.back()) * bounds::up;
-      }
-    }
+/// The generators of a part of h seconds in all; raises, of each state, what is left at its ends and in its middle.
+void FlowInputs::addPart(Course& course, double h, int part, std::vector<double>& turning,
+                         std::vector<double>& constant) {
+  const PolynomialSeries& series = course.series;
+  const double length = h / parts_, half = course.theta / (2 * parts_) * bounds::up;
+  const Eigen::MatrixXd g = solve(course, course.theta * (part + 0.5) / parts_);
+  const Eigen::MatrixXd off = (course.B - course.psi * g).cwiseAbs();
+  std::vector<double> turningNow(at(n_), 0.0), constantNow(at(n_), 0.0);
+  for (int k = 0; k < count(); ++k) {
+    const Eigen::VectorXd size = g.col(k).cwiseAbs();
     for (int i = 0; i < n_; ++i) {
-      turning[at(i)] = std::max(turning[at(i)], turningNow[at(i)]);
-      constant[at(i)] = std::max(constant[at(i)], constantNow[at(i)]);
+      const int b = node(series, i, k);
+      // Horner's scheme 2·order roundings, the product n; the difference, the middle's place, ĝ c below: one each.
+      const double rounding = (2 * order_ + n_ + 6) * bounds::unit * (series.norm(b) + course.size.row(i).dot(size));
+      turningNow[at(i)] += radius_[at(k)] * speedOf(course, i, k, size) * half;
+      constantNow[at(i)] +=
+          radius_[at(k)] * (off(i, k) + rounding + series.variation(b) + course.variation.row(i).dot(size) +
+                            series.meanRho0(b) + series.meanRho1(b));
+    }
+    const double reach = radius_[at(k)] * length * bounds::up;  // ≥ |∫u| over the part
+    for (int i = 0; i < n_; ++i) {
+      generators_.push_back(g(i, k) * reach);
+      total_[at(i)] += std::fabs(generators_.back()) * bounds::up;
     }
   }
+  for (int i = 0; i < n_; ++i) {
+    turning[at(i)] = std::max(turning[at(i)], turningNow[at(i)]);
+    constant[at(i)] = std::max(constant[at(i)], constantNow[at(i)]);
+  }
+}
+
+void FlowInputs::resolve(const PolynomialSeries& series, const FlowGrowth& growth, double theta, double h) {
+  generators_.clear();
+  total_.assign(at(n_), 0.0);
+  rest_.assign(at(n_), 0.0);
+  haste_ = 0;
+  if (empty()) return;
+  Course course = courseOf(series, theta);
+  choosePartsOf(course, growth, h);
+  std::vector<double> turning(at(n_), 0.0), constant(at(n_), 0.0);
+  for (int part = 0; part < parts_; ++part) addPart(course, h, part, turning, constant);
   // y' = Ay + d: M1 d for a constant d; e^{Ah} ∫d for one that falls to zero in the middle of every part.
   for (int i = 0; i < n_; ++i) {
     double sum = 0;

@@ -3,6 +3,7 @@
 // length. docs/flow.md, section 6.
 #pragma once
 
+#include <Eigen/Core>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,13 @@ class FlowInputs {
   int node(const PolynomialSeries& series, int i, int k) const {
     return series.outputNode(n_ + n_ * n_ + i * count() + k);
   }
+
+  struct Course;
+  Course courseOf(const PolynomialSeries& series, double theta) const;
+  Eigen::MatrixXd solve(Course& course, double sigma) const;
+  double speedOf(const Course& course, int i, int k, const Eigen::VectorXd& g) const;
+  void choosePartsOf(Course& course, const FlowGrowth& growth, double h);
+  void addPart(Course& course, double h, int part, std::vector<double>& turning, std::vector<double>& constant);
 
   int n_, order_;
   double share_, haste_ = 0;

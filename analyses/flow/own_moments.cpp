@@ -34,8 +34,48 @@ BoundedPolynomial FlowStepper::frameAt(std::size_t i, std::size_t j, const Bound
   return composed(monomials(), u, moment);
 }
 
-/// What solutions are from m(ξ) on until they are stopped, by orders of s = σ - m(ξ), s no less than -a: X_0 = x̃(m),
-/// and X_{k+1} (k + 1) the k-th order of f_a along X. D is X - x̃, so that |D(m)| is what x̃(m) is truncated by.
+namespace {
+
+/// Σ u_k (σ + by)^k, by as many orders of σ as there are u.
+std::vector<BoundedPolynomial> moved(const Monomials& monomials, const std::vector<BoundedPolynomial>& u,
+                                     const BoundedPolynomial& by) {
+  std::vector<BoundedPolynomial> result;
+  for (auto term = u.rbegin(); term != u.rend(); ++term) {
+    std::vector<BoundedPolynomial> next(result.size() + 1);
+    for (std::size_t k = 0; k < result.size(); ++k) {
+      next[k] += product(monomials, result[k], by);
+      next[k + 1] += result[k];
+    }
+    next[0] += *term;
+    result = std::move(next);
+  }
+  return result;
+}
+
+}  // namespace
+
+/// X of describeSince from X_0 on, which is there: X_{k+1} (k + 1) is the k-th order of f_a along X.
+void FlowStepper::followOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
+  const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
+  AlongStep& following = turn.of->following();
+  for (std::size_t order = 0; order + 1 < turn.fromMoment[0].size(); ++order) {
+    std::vector<double> states(n * N * orders, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t g = 0; g < N; ++g)
+        for (std::size_t k = 0; k <= order; ++k) states[(i * N + g) * orders + k] = turn.fromMoment[i][k].c[g];
+    following.compute(states, set.t, h0_, turn.span, set.parameters, signs);
+    for (std::size_t i = 0; i < n; ++i) {
+      const PolynomialSeries& f = following.series();
+      const int node = f.outputNode(static_cast<int>(i));
+      for (std::size_t g = 0; g < std::min(N, at(f.count(node))); ++g)
+        turn.fromMoment[i][order + 1].c[g] =
+            f.series(node)[g * at(f.stride()) + order] * h0_ / static_cast<double>(order + 1);
+    }
+  }
+}
+
+/// What solutions are from m(ξ) on until they are stopped, by orders of s = σ - m(ξ), s no less than -a: X_0 = x̃(m).
+/// D is X - x̃, so that |D(m)| is what x̃(m) is truncated by.
 bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
   constexpr std::size_t few = 4;
   const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
@@ -50,21 +90,7 @@ bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>&
     turn.fromMoment[i][0].c = start.c;
     turn.gap.push_back(start.error);
   }
-  AlongStep& following = turn.of->following();
-  for (std::size_t order = 0; order + 1 < few; ++order) {
-    std::vector<double> states(n * N * orders, 0.0);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t g = 0; g < N; ++g)
-        for (std::size_t k = 0; k <= order; ++k) states[(i * N + g) * orders + k] = turn.fromMoment[i][k].c[g];
-    following.compute(states, set.t, h0_, turn.span, set.parameters, signs);
-    for (std::size_t i = 0; i < n; ++i) {
-      const PolynomialSeries& f = following.series();
-      const int node = f.outputNode(static_cast<int>(i));
-      for (std::size_t g = 0; g < std::min(N, at(f.count(node))); ++g)
-        turn.fromMoment[i][order + 1].c[g] =
-            f.series(node)[g * at(f.stride()) + order] * h0_ / static_cast<double>(order + 1);
-    }
-  }
+  followOnceTurned(set, signs, turn);
   const double longest = turn.span * h0_ * bounds::up;
   for (std::size_t i = 0; i < n; ++i) {
     const auto differenceOf = [&](const std::vector<BoundedPolynomial>& rates, std::size_t k, double factor) {
@@ -86,19 +112,10 @@ bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>&
     if (!std::isfinite(turn.extent[i])) return false;
   }
   // X - x̃ by orders of σ, for those who look at the step at other times.
+  BoundedPolynomial back = turn.when;
+  back *= -1;
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<BoundedPolynomial> X;
-    BoundedPolynomial back = turn.when;
-    back *= -1;
-    for (auto term = turn.fromMoment[i].rbegin(); term != turn.fromMoment[i].rend(); ++term) {
-      std::vector<BoundedPolynomial> next(X.size() + 1);
-      for (std::size_t k = 0; k < X.size(); ++k) {
-        next[k] += product(monomials(), X[k], back);
-        next[k + 1] += X[k];
-      }
-      next[0] += *term;
-      X = std::move(next);
-    }
+    std::vector<BoundedPolynomial> X = moved(monomials(), turn.fromMoment[i], back);
     X.resize(orders);
     for (std::size_t order = 0; order < orders; ++order) {
       BoundedPolynomial off = own[i][order];

@@ -14,7 +14,8 @@ namespace gamut {
 /// From a set of which all solutions are about to come to rest to one in which they do. One a thread.
 class Settling {
  public:
-  explicit Settling(const FlowJumps& jumps) : jumps_(jumps), given_(jumps.given), results_(at(jumps.given.outputs())) {}
+  explicit Settling(const FlowJumps& jumps)
+      : jumps_(jumps), given_(jumps.given), results_(static_cast<std::size_t>(jumps.given.outputs())) {}
 
   /// How all solutions of the set come to rest at a pair's place.
   struct Found {
@@ -34,9 +35,7 @@ class Settling {
             double quantum) const;
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  std::optional<Found> find(std::size_t pair, const FlowSet& set, const Monomials& monomials,
-                            const std::vector<char>& held, double longest);
+  class Search;
   const std::vector<Interval>& rates(const Interval& time, const Box& box, const std::vector<Interval>& signs);
 
   const FlowJumps& jumps_;

@@ -20,6 +20,40 @@ constexpr double nearlyAny = 1.9;     // the width of a sign of which hardly any
 constexpr double clearlyLess = 1.8;   // of a half width: a row that loses its ξ should win at least a tenth
 constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would win less than leaving costs
 
+/// Of each state but the pivot, by what the pivot follows it: -c_j/c_i. None where products of such, or of what
+/// parameters have, might underflow.
+std::optional<std::vector<double>> ratiosOf(const LinearForm& form) {
+  constexpr double least = 0x1p-500;
+  const double by = form.states[at(form.pivot)];
+  const auto isSafe = [&](double coefficient) { return coefficient == 0 || std::fabs(coefficient / by) > least; };
+  if (!std::ranges::all_of(form.states, isSafe) || !std::ranges::all_of(form.parameters, isSafe)) return std::nullopt;
+  std::vector<double> ratios;
+  for (const double coefficient : form.states) ratios.push_back(-coefficient / by);
+  ratios[at(form.pivot)] = 0;
+  return ratios;
+}
+
+/// Ψ and generators of state i, as those of the others make them; what is Σ|Ψ| of it begins at zero.
+void followOthers(const std::vector<double>& ratio, std::size_t i, FlowPoint& point) {
+  const std::size_t n = ratio.size();
+  for (std::size_t g = 0; g < point.psi.size(); g += n * n)
+    for (std::size_t c = 0; c < n; ++c) {
+      double sum = 0;
+      for (std::size_t j = 0; j < n; ++j) sum += ratio[j] * point.psi[g + j * n + c];
+      point.psi[g + i * n + c] = sum;
+    }
+  std::fill_n(point.psiSum.begin() + static_cast<std::ptrdiff_t>(i * n), n, 0.0);
+  const auto combine = [&](std::vector<double>& columns) {  // generators, n numbers each
+    for (std::size_t c = 0; c + n <= columns.size(); c += n) {
+      double sum = 0;
+      for (std::size_t j = 0; j < n; ++j) sum += ratio[j] * columns[c + j];
+      columns[c + i] = sum;
+    }
+  };
+  combine(point.zonotope);
+  for (std::vector<double>& of : point.drivenOfXi) combine(of);
+}
+
 /// Of an argument that is above zero, or below, or still zero.
 Interval sideOf(bool isAbove) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -120,6 +154,22 @@ Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vecto
   return result + inflated(Interval(c[0]), (half + rest + roundings) * bounds::up);
 }
 
+int LooseSum::addParameters(const LinearForm& form, double by, const std::vector<Embedded>& parameters,
+                            const Monomials& monomials) {
+  int terms = 0;
+  for (std::size_t k = 0; k < form.parameters.size(); ++k) {
+    const double part = form.parameters[k] / by;
+    const Embedded& e = parameters[k];
+    if (part == 0) continue;
+    ++terms;
+    p[0] += part * e.centre;
+    if (e.symbol >= 0) p[at(monomials.linear(e.symbol))] += part * e.half;
+    size += std::fabs(part) * (std::fabs(e.centre) + std::fabs(e.half));
+    loose += std::fabs(part) * e.coarseRadius();
+  }
+  return terms;
+}
+
 /// How long the step should be at most where solutions are about to be held or to leave. `atStart`: bounds of the first
 /// moment; `last`: the step before, if it was one of these.
 double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const {
@@ -177,12 +227,11 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) 
         value += form.states[i] * (bound.holds ? set.p[i * at(N) + at(g)] : f[g * series_.stride()]);
         if (g == 0) rate += form.states[i] * (bound.holds ? f[0] : f[1] / h0_);
       }
-      for (std::size_t l = 0; l < mass.size(); ++l)
-        if (monomials().exponent(g, static_cast<int>(l)) > 0) mass[l] += std::fabs(value);
+      monomials().addMass(g, std::fabs(value), mass);
       if (g > 0) sum += std::fabs(value);
     }
-    const auto worst = std::ranges::max_element(mass);
-    if (mass.empty() || !(*worst > 0)) continue;
+    const int worst = greatestOf(mass);
+    if (worst < 0) continue;
     // From both sides until the last has come; else while they do.
     const bool isFromBoth = bound.holds && bound.start.lower() < 0 && bound.start.upper() > 0;
     const double time =
@@ -193,7 +242,7 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) 
     for (int i = 0; i < n_; ++i) unknown[at(i)] += series_.jacobianBound(i, form.pivot) * apart;
     if (!(time > longest)) continue;
     longest = time;
-    symbol = static_cast<int>(worst - mass.begin());
+    symbol = worst;
   }
   constexpr double leastPart = 0x1p-6, lost = 0.25;
   if (symbol < 0 || at(symbol) >= set.half.size() || set.half[at(symbol)] <= leastPart) return -1;
@@ -257,14 +306,10 @@ void FlowStepper::assumeSides(const FlowSet& set) {
 
 /// Whether arguments are there wherever states are in this box.
 bool FlowStepper::staysOnSides(const FlowSet& set, const Box& box) const {
+  const Box parameters = rangesOf(set.parameters);
   for (std::size_t j = 0; j < sides_.size(); ++j) {
     if (sides_[j] == 0) continue;
-    const LinearForm& form = *own_->jumps().forms[j];
-    Interval argument = form.constant;
-    for (std::size_t i = 0; i < box.size(); ++i)
-      if (form.states[i] != 0) argument += Interval(form.states[i]) * box[i];
-    for (std::size_t k = 0; k < form.parameters.size(); ++k)
-      if (form.parameters[k] != 0) argument += Interval(form.parameters[k]) * rangeOf(set.parameters[k]);
+    const Interval argument = rangeOf(*own_->jumps().forms[j], box, parameters);
     if (!(sides_[j] > 0 ? argument.lower() > 0 : argument.upper() < 0)) return false;
   }
   return true;
@@ -323,15 +368,9 @@ bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const 
 
 /// In the tube that was bounded last.
 bool FlowStepper::mayPassKink(const FlowSet& set) const {
-  for (std::size_t k = 0; k < kinks_->count(); ++k) {
-    const LinearForm& form = kinks_->form(k);
-    Interval u = form.constant;
-    for (int i = 0; i < n_; ++i)
-      if (form.states[at(i)] != 0) u += Interval(form.states[at(i)]) * series_.rangeOf(i, y_[at(i)]);
-    for (std::size_t q = 0; q < form.parameters.size(); ++q)
-      if (form.parameters[q] != 0) u += Interval(form.parameters[q]) * rangeOf(set.parameters[q]);
-    if (contains(u, 0.0)) return true;
-  }
+  const Box box = boxWithin(y_), parameters = rangesOf(set.parameters);
+  for (std::size_t k = 0; k < kinks_->count(); ++k)
+    if (contains(rangeOf(kinks_->form(k), box, parameters), 0.0)) return true;
   return false;
 }
 
@@ -528,7 +567,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   isSliding_ = false;
   const Interval began(set.t);
   Around around{{}, boxAtStart(set), began, began + Interval(0.0, h)};
-  for (int i = 0; i < n_; ++i) around.box.push_back(series_.rangeOf(i, y_[at(i)]));  // proved: no more than E
+  around.box = boxWithin(y_);  // proved: no more than E
   if (const std::optional<Look> look = lookAtSides(set, around.box, h, smallest)) return *look;
   if (isLiftOfSurface_)  // known better without
     if (const std::optional<Look> look = withoutLift()) return *look;
@@ -816,95 +855,71 @@ std::vector<SignCases> FlowStepper::signsOver(std::size_t count) const {
   return result;
 }
 
-/// x_i = (u - Σ_{j≠i} c_j x_j - Σ_k d_k p_k - constant)/c_i, where u is known better so than by the set. At moments of
-/// solutions' own, of what is held alone.
+/// Whether a jump's argument is known to be in u so much better than by the point that its state is taken from there.
+bool FlowStepper::isNarrower(const LinearForm& form, const JumpBound& bound, const Interval& u,
+                             const FlowPoint& point) const {
+  if (!isCommon(u)) return false;
+  const std::size_t n = at(n_), N = at(series_.count());
+  double now = 0;
+  for (std::size_t g = 1; g < N; ++g) {
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j) sum += form.states[j] * point.p[j * N + g];
+    now += std::fabs(sum);
+  }
+  for (std::size_t j = 0; j < n; ++j) now += std::fabs(form.states[j]) * point.radius[j];
+  const bool isFromBoth = bound.holds && bound.start.lower() < 0 && bound.start.upper() > 0;  // its ξ is lost anyway
+  return !(width(u) > 0) || width(u) < (isFromBoth ? 2 : clearlyLess) * now;
+}
+
+/// x_i = (u - Σ_{j≠i} c_j x_j - Σ_k d_k p_k - constant)/c_i.
+void FlowStepper::takeArgument(const FlowSet& set, const LinearForm& form, const Interval& u, FlowPoint& point) const {
+  const std::optional<std::vector<double>> ratio = ratiosOf(form);
+  if (!ratio) return;
+  const std::size_t n = at(n_), N = at(series_.count()), i = at(form.pivot);
+  const double by = form.states[i];
+  const Interval constant = (Interval(midpoint(u)) - form.constant) / Interval(by);
+  LooseSum sum{std::vector<double>(N, 0.0)};
+  sum.p[0] = midpoint(constant);
+  sum.loose = std::max((u.upper() - midpoint(u)), (midpoint(u) - u.lower())) / std::fabs(by) + radius(constant);
+  sum.size = std::fabs(midpoint(u) / by) + std::fabs(midpoint(constant));
+  sum.addParameters(form, -by, set.parameters, monomials());
+  followOthers(*ratio, i, point);
+  double radiusOfOthers = 0;
+  point.driven[i] = point.beyond[i] = 0;
+  for (std::size_t j = 0; j < n; ++j) {
+    if ((*ratio)[j] == 0) continue;
+    const double share = std::fabs((*ratio)[j]) * bounds::up;
+    for (std::size_t g = 0; g < N; ++g) {
+      sum.p[g] += (*ratio)[j] * point.p[j * N + g];
+      sum.size += share * std::fabs(point.p[j * N + g]);
+    }
+    for (std::size_t c = 0; c < n; ++c) {
+      point.psiSum[i * n + c] += share * point.psiSum[j * n + c];
+      sum.size += share * point.psiSum[j * n + c] * point.total[c];
+    }
+    sum.loose += share * point.loose[j];
+    radiusOfOthers += share * point.radius[j];
+    point.driven[i] += share * point.driven[j];
+    point.beyond[i] += share * point.beyond[j];
+  }
+  const auto isZero = [](double number) { return number == 0; };
+  const bool isNothing = isEqual(u, Interval(0.0)) && isEqual(form.constant, Interval(0.0)) &&
+                         std::ranges::all_of(*ratio, isZero) && std::ranges::all_of(form.parameters, isZero);
+  // No sum has more than 2n + N + parameters terms, of two roundings each; twice as many are counted.
+  const double roundings = 4.0 * static_cast<double>(2 * n + N + form.parameters.size()) + 16;
+  const double own = isNothing ? 0.0 : (sum.loose + roundings * bounds::unit * sum.size) * bounds::up + bounds::tiny;
+  std::ranges::copy(sum.p, point.p.begin() + static_cast<std::ptrdiff_t>(i * N));
+  point.loose[i] = own;
+  point.known[i] = 0.5 * width(u) / std::fabs(by);
+  point.radius[i] = (radiusOfOthers + own) * bounds::up;
+}
+
+/// Takes states from what is known of jumps' arguments τ seconds into the step. At moments of solutions' own, from what
+/// is held alone.
 void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& point, std::optional<Interval> moments,
                                   bool onceTurned) const {
-  const int N = series_.count(), NJ = series_.frameCount();
-  const std::size_t n = at(n_);
   const auto narrow = [&](const LinearForm& form, const JumpBound& bound) {
-    const Interval u = bound.after(tau).then;
-    if (!isCommon(u)) return;
-    const std::size_t i = at(form.pivot);
-    const double by = form.states[i];
-    double now = 0;
-    for (int g = 1; g < N; ++g) {
-      double sum = 0;
-      for (std::size_t j = 0; j < n; ++j) sum += form.states[j] * point.p[j * at(N) + at(g)];
-      now += std::fabs(sum);
-    }
-    for (std::size_t j = 0; j < n; ++j) now += std::fabs(form.states[j]) * point.radius[j];
-    const bool isFromBoth = bound.holds && bound.start.lower() < 0 && bound.start.upper() > 0;  // its ξ is lost anyway
-    if (width(u) > 0 && !(width(u) < (isFromBoth ? 2 : clearlyLess) * now)) return;
-    constexpr double leastRatio = 0x1p-500;  // below, products might underflow
-    bool isZero = isEqual(u, Interval(0.0)) && isEqual(form.constant, Interval(0.0)), isSafe = true;
-    std::vector<double> ratio(n, 0.0);
-    for (std::size_t j = 0; j < n; ++j) {
-      if (j == i || form.states[j] == 0) continue;
-      ratio[j] = -form.states[j] / by;
-      isZero = false;
-      isSafe = isSafe && std::fabs(ratio[j]) > leastRatio;
-    }
-    for (const double parameter : form.parameters) {
-      isZero = isZero && parameter == 0;
-      isSafe = isSafe && (parameter == 0 || std::fabs(parameter / by) > leastRatio);
-    }
-    if (!isSafe) return;
-    const Interval constant = (Interval(midpoint(u)) - form.constant) / Interval(by);
-    double loose = std::max((u.upper() - midpoint(u)), (midpoint(u) - u.lower())) / std::fabs(by) + radius(constant);
-    double size = std::fabs(midpoint(u) / by) + std::fabs(midpoint(constant));
-    std::vector<double> p(at(N), 0.0);
-    p[0] = midpoint(constant);
-    for (std::size_t q = 0; q < form.parameters.size(); ++q) {
-      const double part = -form.parameters[q] / by;
-      const Embedded& e = set.parameters[q];
-      if (part == 0) continue;
-      p[0] += part * e.centre;
-      if (e.symbol >= 0) p[at(monomials().linear(e.symbol))] += part * e.half;
-      loose += std::fabs(part) * e.coarseRadius();
-      size += std::fabs(part) * (std::fabs(e.centre) + e.half);
-    }
-    double radiusOfOthers = 0;
-    point.driven[i] = point.beyond[i] = 0;
-    for (int g = 0; g < NJ; ++g)
-      for (std::size_t c = 0; c < n; ++c) {
-        double sum = 0;
-        for (std::size_t j = 0; j < n; ++j) sum += ratio[j] * point.psi[(at(g) * n + j) * n + c];
-        point.psi[(at(g) * n + i) * n + c] = sum;
-      }
-    std::fill_n(point.psiSum.begin() + static_cast<std::ptrdiff_t>(i * n), n, 0.0);
-    const auto combine = [&](std::vector<double>& columns) {  // generators, n numbers each
-      for (std::size_t c = 0; c + n <= columns.size(); c += n) {
-        double sum = 0;
-        for (std::size_t j = 0; j < n; ++j) sum += ratio[j] * columns[c + j];
-        columns[c + i] = sum;
-      }
-    };
-    combine(point.zonotope);
-    for (std::vector<double>& of : point.drivenOfXi) combine(of);
-    for (std::size_t j = 0; j < n; ++j) {
-      if (ratio[j] == 0) continue;
-      const double share = std::fabs(ratio[j]) * bounds::up;
-      for (int g = 0; g < N; ++g) {
-        p[at(g)] += ratio[j] * point.p[j * at(N) + at(g)];
-        size += share * std::fabs(point.p[j * at(N) + at(g)]);
-      }
-      for (std::size_t c = 0; c < n; ++c) {
-        point.psiSum[i * n + c] += share * point.psiSum[j * n + c];
-        size += share * point.psiSum[j * n + c] * point.total[c];
-      }
-      loose += share * point.loose[j];
-      radiusOfOthers += share * point.radius[j];
-      point.driven[i] += share * point.driven[j];
-      point.beyond[i] += share * point.beyond[j];
-    }
-    // No sum has more than 2n + N + parameters terms, of two roundings each; twice as many are counted.
-    const double roundings = 4.0 * static_cast<double>(2 * n + at(N) + form.parameters.size()) + 16;
-    const double own = isZero ? 0.0 : (loose + roundings * bounds::unit * size) * bounds::up + bounds::tiny;
-    std::ranges::copy(p, point.p.begin() + static_cast<std::ptrdiff_t>(i * at(N)));
-    point.loose[i] = own;
-    point.known[i] = 0.5 * width(u) / std::fabs(by);
-    point.radius[i] = (radiusOfOthers + own) * bounds::up;
+    if (const Interval u = bound.after(tau).then; isNarrower(form, bound, u, point)) takeArgument(set, form, u, point);
   };
   if (!onceTurned) forEachKnown(narrow);
   for (std::size_t k = 0; onceTurned && k < heldBounds_.size(); ++k)

@@ -150,11 +150,9 @@ bool FlowStepper::areJumpsClear(const FlowSet& set) const {
   const auto isKink = [](const Node& node) { return node.op == Op::abs; };
   if (std::ranges::any_of(own_->jumps().f.nodes(), isKink)) return false;
   const std::vector<int>& jumps = series_.jumps();
-  Box box;
-  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, E_[at(i)]));
   for (std::size_t j = 0; j < jumps.size(); ++j)
     if ((sides_.empty() || sides_[j] == 0) && series_.mayTurn(jumps[j])) return false;
-  return staysOnSides(set, box);
+  return staysOnSides(set, boxWithin(E_));
 }
 
 bool FlowStepper::isSmooth() const { return !own_ && !holding_ && !kinks_ && !series_.hasKinks() && inputs_.empty(); }

@@ -66,6 +66,17 @@ double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<
 Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total,
                     const Monomials* monomials = nullptr);
 
+/// A sum of terms in ξ as it is computed: what they are together in size tells its roundings; `loose`, what else it is
+/// off.
+struct LooseSum {
+  std::vector<double> p;  // [monomial]
+  double loose = 0, size = 0;
+
+  /// += Σ_k (d_k/by) p_k of the form; returns of how many terms.
+  int addParameters(const LinearForm& form, double by, const std::vector<Embedded>& parameters,
+                    const Monomials& monomials);
+};
+
 /// How much longer than until the last solution has passed a jump or kink a step is, so that rates over all of it still
 /// say so.
 constexpr double beyondTheLast = 1.0625;
@@ -233,6 +244,10 @@ class FlowStepper {
                       std::optional<Interval> moments = {});
   void evaluateRemainder(const FlowSet& set, double tau, FlowPoint& point) const;
   void turnFrame(FlowSet& set);
+  struct GeneratorRest;
+  Eigen::VectorXd turnGenerators(FlowSet& set, const Eigen::MatrixXd& turn, const Eigen::MatrixXd& fresh);
+  void multiplyGenerators(FlowSet& set, GeneratorRest& rest);
+  void carryInputs(FlowSet& set, GeneratorRest& rest);
   void carryGenerators(FlowSet& set);
   void evaluateAt(const BoundedPolynomial& moment, FlowPoint& point) const;
   void advanceTo(const BoundedPolynomial& moment, FlowSet& set);
@@ -277,6 +292,8 @@ class FlowStepper {
   Look lookAtCrossings(const FlowSet& set, const Around& around, double& h, double smallest, double left);
   Look giveNarrower(const std::vector<std::size_t>& narrower, double h);
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
+  bool leavesKinkSides(const std::vector<JumpBound>& atStart, const std::vector<Interval>& u, double h);
+  Look passKinks(const std::vector<JumpBound>& bounds, double h, double left);
   Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
   struct Search;
   void begin(const FlowSet& set, double end);
@@ -293,6 +310,7 @@ class FlowStepper {
   static double longestToCross(const std::vector<JumpBound>& bounds, const std::vector<JumpBound>& atStart, double h,
                                double smallest, bool mayArrive = false);
   Box boxAtStart(const FlowSet& set) const;
+  Box boxWithin(const std::vector<double>& reach) const;
   /// In this step all solutions go from one side of a jump or kink to the other: at moment(ξ) - c·C(r + Γs)/rate ±
   /// off.
   struct Crossing {
@@ -319,6 +337,10 @@ class FlowStepper {
     double drift(std::size_t i) const { return push.empty() ? 0.0 : std::fabs(push[i]) * apart; }
   };
   void boundCrossings(const FlowSet& set);
+  std::vector<BoundedPolynomial> argumentAlong(const FlowSet& set, const LinearForm& form) const;
+  void addBesides(const Crossing& crossing, double last, double& sum) const;
+  double changedBy(const Crossing& other, const Crossing& crossing) const;
+  std::vector<BoundedPolynomial> areaOf(const std::vector<BoundedPolynomial>& u, const BoundedPolynomial& moment) const;
   bool boundMoment(const FlowSet& set, Crossing& crossing) const;
   /// What is added to f from the moment on, over change().
   struct Push {
@@ -331,7 +353,10 @@ class FlowStepper {
   bool loadHeldPush(const FlowSet& set, Crossing& crossing);
   void boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const;
   bool boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest);
-  void addCrossings(const FlowSet& set, double tau, FlowPoint& point) const;
+  static std::pair<BoundedPolynomial, double> sinceCrossing(const Crossing& crossing, double tau);
+  BoundedPolynomial areaSince(const Crossing& crossing, double tau, const BoundedPolynomial& l) const;
+  BoundedPolynomial pushAt(const Crossing& crossing, std::size_t state, double tau) const;
+  void addCrossing(const FlowSet& set, const Crossing& crossing, double tau, FlowPoint& point) const;
   int symbolOfSliding(const FlowSet& set, const SplitShares& shares);
   double longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const;
   bool boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h, std::vector<JumpBound>& bounds,
@@ -411,6 +436,7 @@ class FlowStepper {
     Interval gone(const Interval& shortest, const Interval& longest) const;
     bool releases() const { return kind == TurnKind::release; }
     bool arrives() const { return kind == TurnKind::arrival; }
+    bool stops() const { return !fromMoment.empty(); }
     bool passesJump() const { return kind == TurnKind::passage && jump != none; }
     /// |D| at most, up to so many seconds from m(ξ), before or after.
     double within(std::size_t state, double seconds) const;
@@ -421,7 +447,12 @@ class FlowStepper {
   Look lookAtSurface(const FlowSet& set, double& h, double smallest);
   bool mayPassAsTurn(std::size_t kink) const;
   Look lookAtPassage(const FlowSet& set, double& h, double smallest);
+  /// How much longer than until the last turns a step is, in times of what there is between first and last: all are
+  /// known to have turned, then.
+  double shareOfSpread() const { return stops_ ? 0.125 : 0.25; }
+  std::optional<Look> timeTurn(FlowTurn& of, double& h, double smallest, Interval& moments);
   Look lookAtTurn(const FlowSet& set, double& h, double smallest, Turn turn, const std::vector<Interval>& signs);
+  Look takeTurn(const FlowSet& set, double& h, double smallest, Turn turn, const std::vector<Interval>& signs);
   void holdBeside(const std::vector<char>& held);
   bool pressBeside(const FlowSet& set, const Turn& turn);
   bool holdUntilTurned(const FlowSet& set, const Turn& turn);
@@ -432,6 +463,7 @@ class FlowStepper {
                       const std::vector<double>& tube);
   std::vector<double> statesWith(const Turn& turn) const;
   std::vector<double> statesSince(const Turn& turn) const;
+  void followOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
   bool describeSince(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
   bool describeInStep(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
   static double lagOf(double away, double h) { return std::max(2 * away, 0x1p-8 * h); }
@@ -445,6 +477,13 @@ class FlowStepper {
   double variationOfFrame(std::size_t i, std::size_t j, double middle, double span) const;
   std::vector<double> jumpAtMoment(const Turn& turn, const std::vector<double>& before) const;
   std::vector<double> restOfFrame(const Turn& turn, const std::vector<Interval>& J, double longest) const;
+  struct TurnProof;
+  bool boundDefect(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, TurnProof& proof,
+                   double& relativeDefect);
+  bool boundOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, TurnProof& proof);
+  bool isTurnLost(const Turn& turn, const TurnProof& proof);
+  bool isTurnInTube(const Turn& turn, const TurnProof& proof);
+  std::vector<double> tubeOnceTurned(Turn& turn, const TurnProof& proof);
   bool proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, double& relativeDefect);
   void addTurn(double tau, FlowPoint& point, const Interval& moments) const;
   /// What comes to be held, |u - ũ| ≤ g on a chord from its first to its last number, with the state that it decides.
@@ -461,6 +500,8 @@ class FlowStepper {
   template <class Of>
   std::vector<SignCases> signs(std::size_t count, Of of) const;
   void giveTurning(const Interval& seconds, std::vector<SignCases>& signs) const;
+  bool isNarrower(const LinearForm& form, const JumpBound& bound, const Interval& u, const FlowPoint& point) const;
+  void takeArgument(const FlowSet& set, const LinearForm& form, const Interval& u, FlowPoint& point) const;
   void narrowArguments(const FlowSet& set, double tau, FlowPoint& point, std::optional<Interval> moments,
                        bool onceTurned = false) const;
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;

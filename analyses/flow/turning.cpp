@@ -21,6 +21,9 @@ using detail::at;
 
 namespace {
 
+constexpr int mostTurnTries = 8;
+constexpr double longerTurn = 1.25, turnSlack = 1.02;  // what is allowed for; what a step may be longer than it should
+
 /// Two neighbours of [from, to], about, of which `holds` only at the second, if so at `to` and not at `from`.
 template <class Holds>
 std::pair<double, double> changeOf(double from, double to, Holds holds) {
@@ -63,7 +66,7 @@ std::vector<BoundedPolynomial> sinceMoment(const Monomials& monomials, const std
 
 /// An output from a solution's own moment on.
 Interval FlowStepper::onceTurned(const AlongStep& along, int output, const Turn& turn) const {
-  if (!turn.fromMoment.empty()) return along.over(output, 0, turn.span);
+  if (turn.stops()) return along.over(output, 0, turn.span);
   const std::vector<BoundedPolynomial> u = polynomialsOf(along, output, at(m_) + 1);
   const double moves = along.series().derivativeNorm(along.series().outputNode(output), 1, theta_) / h0_;
   const Interval range = rangeOver(sinceMoment(monomials(), u, turn.when, theta_), 0, 1);
@@ -319,7 +322,7 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
   std::vector<Interval> signs;
   for (const int jump : series_.jumps()) signs.emplace_back(series_.series(jump)[0]);
   takeKinkSides(*ownRates_, turn.jump == none ? -passingFrom_ : 0);  // from their moments on
-  if (!ownRates_->load(states, set.t, h0_, turn.fromMoment.empty() ? theta_ : turn.span, set.parameters, signs, tube))
+  if (!ownRates_->load(states, set.t, h0_, turn.stops() ? turn.span : theta_, set.parameters, signs, tube))
     return false;
   turn.besides.assign(signs.size(), Interval::entire());
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -334,7 +337,7 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
         rate += Interval(form.states[i]) * onceTurned(*turn.of, turn.of->after(static_cast<int>(i)), turn);
     if (!isPassed && !isAway(rate) && !isAway(onceTurned(*ownRates_, ownRates_->argument(j), turn))) return false;
     const Interval end =
-        turn.fromMoment.empty() ? ownRates_->argumentOver(j, theta_, theta_) : ownRates_->argumentOver(j, 0, turn.span);
+        turn.stops() ? ownRates_->argumentOver(j, 0, turn.span) : ownRates_->argumentOver(j, theta_, theta_);
     const Interval beyond =
         (sides_[j] > 0) != isPassed ? Interval(0.0, infinite) : Interval(-infinite, 0.0);  // it may have come nearer
     turn.besides[j] = intersection(end, beyond);
@@ -382,7 +385,7 @@ bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std
   std::vector<Interval> signs = turn.signs;
   if (turn.jump != none) signs[turn.jump] = Interval(turn.side);
   if (turn.lifts != nullptr) signs[turn.lifts->position] = Interval(turn.lifts->ofPosition(1));
-  const bool isInStep = turn.fromMoment.empty();
+  const bool isInStep = !turn.stops();
   const double theta = isInStep ? theta_ : turn.span;
   if (together == nullptr || !together->load(states, set.t, h0_, theta, set.parameters, signs, tube)) return false;
   for (std::size_t k = 0; k < turn.heldAfter.size(); ++k) {
@@ -411,23 +414,14 @@ bool FlowStepper::pressBeside(const FlowSet& set, const Turn& turn) {
   return true;
 }
 
-/// Whether the turn takes all solutions within the step, which is then somewhat longer than until the last has turned,
-/// also beyond the horizon.
-FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double smallest, Turn turn,
-                                          const std::vector<Interval>& signs) {
-  constexpr int mostTries = 8;
-  constexpr double longer = 1.25, slack = 1.02;
-  if (!inputs_.empty() || ++turnTries_ > 3 * mostTries) return Look::released;
-  // Until it turns, a solution is one of those before: inside their tube.
-  FlowTurn& of = *turn.of;
-  takeKinkSides(of, 0);
-  if (!of.load(series_, set.t, h0_, h / h0_, set.parameters, signs, heldTube_)) return Look::released;
-  const auto over = [&](int output, double from, double to) { return of.over(output, from / h0_, to / h0_); };
-  const auto guardAt = [&](double seconds) { return over(of.guard(), seconds, seconds); };
+/// When the first turns and the last, once all do in a step that is somewhat longer than until then, also beyond the
+/// horizon; else what is to be tried, `h` seconds long.
+std::optional<FlowStepper::Look> FlowStepper::timeTurn(FlowTurn& of, double& h, double smallest, Interval& moments) {
+  const auto guardAt = [&](double seconds) { return of.over(of.guard(), seconds / h0_, seconds / h0_); };
   if (!(guardAt(h).lower() > 0)) {  // not yet all of them
-    const Interval growth = over(of.growth(), h, h);
-    const double all = h - guardAt(h).lower() / growth.lower() * longer;
-    if (!(growth.lower() > 0) || !std::isfinite(all) || all > reach_ || ++lengthened_ > mostTries)
+    const Interval growth = of.over(of.growth(), h / h0_, h / h0_);
+    const double all = h - guardAt(h).lower() / growth.lower() * longerTurn;
+    if (!(growth.lower() > 0) || !std::isfinite(all) || all > reach_ || ++lengthened_ > mostTurnTries)
       return Look::released;
     h = std::min(all, 4 * h);
     return Look::longer;
@@ -440,43 +434,62 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
     return Look::shorter;
   }
   constexpr double ofStep = 0x1p-6;
-  const double ofSpread = stops_ ? 0.125 : 0.25;  // so much longer: all are known to have turned, then
-  if (!(beyondLast_ > 0)) beyondLast_ = std::max({ofSpread * (last - first), ofStep * h, smallest});
+  if (!(beyondLast_ > 0)) beyondLast_ = std::max({shareOfSpread() * (last - first), ofStep * h, smallest});
   const double target = last + beyondLast_;
   if (target > reach_) return Look::released;
-  if (h > slack * target) {
+  if (h > turnSlack * target) {
     h = target;
     return Look::shorter;
   }
-  if (!(over(of.growth(), first, h).lower() > 0)) return Look::released;
-  if (turn.releases() && !(over(of.isAttracted(), 0, h).lower() > 0))
+  moments = Interval(first, last);
+  return std::nullopt;
+}
+
+/// Whether the turn takes all solutions within the step.
+FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double smallest, Turn turn,
+                                          const std::vector<Interval>& signs) {
+  if (!inputs_.empty() || ++turnTries_ > 3 * mostTurnTries) return Look::released;
+  // Until it turns, a solution is one of those before: inside their tube.
+  FlowTurn& of = *turn.of;
+  takeKinkSides(of, 0);
+  if (!of.load(series_, set.t, h0_, h / h0_, set.parameters, signs, heldTube_)) return Look::released;
+  if (const std::optional<Look> look = timeTurn(of, h, smallest, turn.moments)) return *look;
+  if (!(of.over(of.growth(), turn.moments.lower() / h0_, h / h0_).lower() > 0)) return Look::released;
+  if (turn.releases() && !(of.over(of.isAttracted(), 0, h / h0_).lower() > 0))
     return Look::released;  // as it is held from there
   h_ = h;
   theta_ = h / h0_;
-  turn.moments = Interval(first, last);
   turn.needed = 0;
   if (!describeTurn(set, signs, turn)) {
-    if (!(turn.needed > slack * h) || !(turn.needed < 2 * h) || turn.needed > reach_ || ++lengthened_ > mostTries)
+    if (!(turn.needed > turnSlack * h) || !(turn.needed < 2 * h) || turn.needed > reach_ ||
+        ++lengthened_ > mostTurnTries)
       return Look::released;
-    beyondLast_ = turn.needed - last;
+    beyondLast_ = turn.needed - turn.moments.upper();
     h = turn.needed;
     return Look::longer;
   }
   if (!holdUntilTurned(set, turn)) return Look::released;
   if (lift_.empty()) {
-    for (const double most : turn.most) lift_.push_back(longer * most + bounds::tiny);
+    for (const double most : turn.most) lift_.push_back(longerTurn * most + bounds::tiny);
     isLiftOfSurface_ = turn.arrives() || turn.passesJump();
     return Look::shorter;  // no shorter, but in this tube
   }
+  return takeTurn(set, h, smallest, std::move(turn), signs);
+}
+
+/// The turn that was described, if it is proved; else another tube, or a shorter step.
+FlowStepper::Look FlowStepper::takeTurn(const FlowSet& set, double& h, double smallest, Turn turn,
+                                        const std::vector<Interval>& signs) {
   const std::vector<double> lift = lift_;
   double defect = 0;  // of D
   leavesOnceTurned_ = false;
   const bool isProved = proveTurn(set, signs, turn, defect);
   if (!isProved && !leavesOnceTurned_) return lift_ == lift ? Look::released : Look::shorter;
-  const bool mayBeShorter = beyondLast_ > slack * ofSpread * (last - first) && beyondLast_ > smallest;
+  const double first = turn.moments.lower(), last = turn.moments.upper(), share = shareOfSpread();
+  const bool mayBeShorter = beyondLast_ > turnSlack * share * (last - first) && beyondLast_ > smallest;
   if (!isProved && !mayBeShorter) return Look::released;
   if (constexpr double mostDefect = 1e-4; !isProved || (defect > mostDefect && mayBeShorter)) {
-    beyondLast_ = std::max({ofSpread * (last - first), 0.25 * beyondLast_, smallest});
+    beyondLast_ = std::max({share * (last - first), 0.25 * beyondLast_, smallest});
     h = last + beyondLast_;
     lift_.clear();
     return Look::shorter;
@@ -526,17 +539,11 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   const PolynomialRoot root = rootOf(monomials(), rate, midpoint(turn.moments) / h0_);
   // The guard is zero, but for what bounds miss, at a solution's own moment and at m(ξ); the slope of its polynomial
   // differs from that at their middle by no more than the second derivative makes of half their distance.
-  turnSymbol_ = -1;
   isTurnMixed_ = false;
-  double most = 0;
-  for (int l = 0; l < monomials().symbols(); ++l) {
-    double mass = 0;
-    for (std::size_t g = 1; g < root.x.c.size(); ++g)
-      if (monomials().exponent(static_cast<int>(g), l) > 0) mass += std::fabs(root.x.c[g]);
-    if (!(mass > most)) continue;
-    most = mass;
-    turnSymbol_ = l;
-  }
+  std::vector<double> mass(at(monomials().symbols()), 0.0);
+  for (std::size_t g = 1; g < root.x.c.size(); ++g)
+    monomials().addMass(static_cast<int>(g), std::fabs(root.x.c[g]), mass);
+  turnSymbol_ = greatestOf(mass);
   turn.when = root.x;
   const Interval range = rangeOf(monomials(), root.x), moments = hull(range, turn.moments / Interval(h0_));
   turn.needed = range.upper() * h0_;
@@ -733,7 +740,7 @@ bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>&
     double value = 0;
     for (std::size_t order = orders; order-- > 0;)
       value = value * middle + series_.series(static_cast<int>(i))[order] + turn.D[i][order].c[0];
-    states.emplace_back(turn.fromMoment.empty() ? value : turn.fromMoment[i][0].c[0]);
+    states.emplace_back(turn.stops() ? turn.fromMoment[i][0].c[0] : value);
   }
   for (const Embedded& e : set.parameters) parameters.emplace_back(e.centre);
   parameters.insert(parameters.end(), signs.begin(), signs.end());
@@ -751,7 +758,7 @@ bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>&
     }
   }
   // Of those that are stopped S is a polynomial in ξ: |S_ij(ξ)| is no more than its coefficients and error together.
-  if (!turn.fromMoment.empty() && !turn.ofGuard.empty()) {
+  if (turn.stops() && !turn.ofGuard.empty()) {
     const std::vector<BoundedPolynomial> ofGuard = guardOfFrame(turn);
     for (std::size_t i = 0; i < n; ++i) {
       double sum = 0;
@@ -812,147 +819,179 @@ std::vector<double> FlowStepper::restOfFrame(const Turn& turn, const std::vector
   return rest;
 }
 
-/// From then on z = x - x̃ - (Ψ̃ + S + K (t - m(ξ)))(r + Γs) - D obeys z' = J̄_a z + (f_a(x̃ + D) - x̃' - D') + (J̄_a (Ψ̃ + S
-/// + K (t - m)) - Ψ̃' - K)(r + Γs), J_a = ∂f_a/∂x on the way from x̃ + D to x. Whether it is so small that x is in the
-/// step's tube, and the rate of those let go grows.
-bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn,
-                            double& relativeDefect) {
+/// What proveTurn finds, of each state.
+struct FlowStepper::TurnProof {
+  std::vector<double> states;           // x̃ + D, as AlongStep takes it
+  double longest = 0, since = 0;        // s, that z is followed for; from m(ξ) on
+  std::vector<double> defect;           // of D, 1/s
+  std::vector<double> truncated;        // of |z|, what a higher degree tells
+  std::vector<double> ofFrame, before;  // what Ψ̃ + S + K (t - m(ξ)) makes of the set's remainder; |z| until m(ξ)
+  std::vector<double> slack;            // what second doubles and roundings of x̃ + D are
+  std::vector<Interval> J;              // ∂f_a/∂x
+};
+
+/// The defect of D, f_a(x̃ + D) - x̃' - D', and what there is of z and of the frame before solutions turn.
+bool FlowStepper::boundDefect(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, TurnProof& proof,
+                              double& relativeDefect) {
   FlowTurn& of = *turn.of;
   const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
   const double first = std::max(0.0, turn.moments.lower());
-  const bool stops = !turn.fromMoment.empty();
-  const double longest =
-      stops ? (turn.lag + turn.away) * bounds::up : std::min(h_, (Interval(h_) - turn.moments).upper());
-  // The defect.
-  const std::vector<double> states = stops ? statesSince(turn) : statesWith(turn);
+  const bool stops = turn.stops();
+  proof.longest = stops ? (turn.lag + turn.away) * bounds::up : std::min(h_, (Interval(h_) - turn.moments).upper());
+  proof.states = stops ? statesSince(turn) : statesWith(turn);
   const double from = stops ? 0.0 : first / h0_, theta = stops ? turn.span : theta_;
   takeKinkSides(of, 0);
-  if (!of.load(states, set.t, h0_, theta, set.parameters, signs, std::vector<double>(n, 0.0))) return false;
+  if (!of.load(proof.states, set.t, h0_, theta, set.parameters, signs, std::vector<double>(n, 0.0))) return false;
   if (!turnFrameWith(set, signs, turn)) return false;
-  const double since = (longest + turn.away) * bounds::up;  // m(ξ)
-  std::vector<double> defect(n), truncated(n), ofFrame(n, 0.0), before(n), most(n), slack(n);
+  proof.since = (proof.longest + turn.away) * bounds::up;
   for (std::size_t i = 0; i < n; ++i) {
-    const int output = of.after(static_cast<int>(i));
+    const int row = static_cast<int>(i), output = of.after(row);
     std::vector<BoundedPolynomial> f = polynomialsOf(of, output, orders);
-    double power = 1;
-    slack[i] = series_.lowNorm(static_cast<int>(i));
+    double power = 1, slack = series_.lowNorm(row);
     for (std::size_t order = 0; order < orders; ++order, power *= theta) {
       f[order].c.resize(N, 0.0);
+      const double* x = &proof.states[i * N * orders + order];
       for (std::size_t g = 0; g < N && order + 1 < orders; ++g) {
-        const double own = states[(i * N + g) * orders + order + 1] * static_cast<double>(order + 1) / h0_;
+        const double own = x[g * orders + 1] * static_cast<double>(order + 1) / h0_;
         f[order].error += 4 * bounds::unit * (std::fabs(own) + std::fabs(f[order].c[g]));
         f[order].c[g] -= own;
       }
       // x̃ + D is rounded: each of the two stands for its exact sum in x.
-      for (std::size_t g = 0; g < N; ++g)
-        slack[i] += power * (stops ? 16 : 1) * bounds::unit * std::fabs(states[(i * N + g) * orders + order]);
+      for (std::size_t g = 0; g < N; ++g) slack += power * (stops ? 16 : 1) * bounds::unit * std::fabs(x[g * orders]);
     }
-    defect[i] = (magnitude(rangeOver(f, from, theta)) + restOf(of, output)) * bounds::up;
-    truncated[i] = turn.within(i, turn.rest / turn.steepness) + longest * restOf(of, output);
+    const double defect = (magnitude(rangeOver(f, from, theta)) + restOf(of, output)) * bounds::up;
+    proof.defect.push_back(defect);
+    proof.truncated.push_back(turn.within(i, turn.rest / turn.steepness) + proof.longest * restOf(of, output));
+    proof.slack.push_back(slack);
     constexpr double heard = 1e-9;  // of the state: what moves by less decides nothing
-    if (longest * defect[i] > heldTube_[i])
-      relativeDefect = std::max(relativeDefect, longest * defect[i] / std::max(turn.extent[i], heard * scale_[i]));
-    double sum = inputs_.rest(static_cast<int>(i)) + slack[i];
-    ofFrame[i] = turn.leapt[i];
-    turn.turned.push_back(0);
+    if (proof.longest * defect > heldTube_[i])
+      relativeDefect = std::max(relativeDefect, proof.longest * defect / std::max(turn.extent[i], heard * scale_[i]));
+    double sum = inputs_.rest(row) + slack, ofFrame = turn.leapt[i], turned = 0;
     for (int j = 0; j < n_; ++j) {
-      const int row = static_cast<int>(i);
       const double K = std::fabs(turn.K[at(row * n_ + j)]) * total_[at(j)] * bounds::up;
-      turn.turned[i] += K;
-      ofFrame[i] += (series_.frameNorm(row, j) * total_[at(j)] + since * K) * bounds::up;
+      turned += K;
+      ofFrame += (series_.frameNorm(row, j) * total_[at(j)] + proof.since * K) * bounds::up;
       sum += epsilon_[at(row * n_ + j)] * total_[at(j)];
       sum +=
           growth_.M1(row, j) * delta0_[at(j)] + growth_.M2(row, j) * delta1_[at(j)] + growth_.M0(row, j) * set.W[at(j)];
     }
-    before[i] = sum * bounds::up;
+    turn.turned.push_back(turned);
+    proof.ofFrame.push_back(ofFrame);
+    proof.before.push_back(sum * bounds::up);
   }
-  const std::vector<double> jump = jumpAtMoment(turn, before), untilMoment = before;
+  return true;
+}
+
+/// |z| while it is followed: crossed_. Proved where what bounds of f_a's derivatives allow for is more.
+bool FlowStepper::boundOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn,
+                                  TurnProof& proof) {
+  const std::size_t n = at(n_);
+  const std::vector<double> jump = jumpAtMoment(turn, proof.before);
+  std::vector<double> before(n), most(n);
   for (std::size_t i = 0; i < n; ++i) {
-    before[i] = (before[i] + jump[i] + turn.away * turn.turned[i]) * bounds::up;
-    most[i] = 2 * before[i] + 0.015625 * turn.most[i] + 2 * longest * defect[i] + bounds::tiny;
+    before[i] = (proof.before[i] + jump[i] + turn.away * turn.turned[i]) * bounds::up;
+    most[i] = 2 * before[i] + 0.015625 * turn.most[i] + 2 * proof.longest * proof.defect[i] + bounds::tiny;
   }
-  Box parameters;
-  for (const Embedded& e : set.parameters) parameters.push_back(rangeOf(e));
+  Box parameters = rangesOf(set.parameters);
   parameters.insert(parameters.end(), signs.begin(), signs.end());
-  std::vector<Interval> J;
-  bool isProved = false;
+  const auto driveOf = [&](const std::vector<Interval>& J) {
+    std::vector<double> rest = restOfFrame(turn, J, proof.since);
+    for (std::size_t i = 0; i < n; ++i) rest[i] = (rest[i] + proof.defect[i]) * bounds::up;
+    return rest;
+  };
   constexpr int rounds = 6;
+  bool isProved = false;
   for (int round = 0; round < rounds && !isProved; ++round) {
     Box box;
     for (std::size_t i = 0; i < n; ++i)
-      box.push_back(series_.rangeOf(static_cast<int>(i), (turn.most[i] + ofFrame[i] + most[i]) * bounds::up));
-    J = of.derivatives(Interval(set.t) + Interval(0.0, h_), box, parameters);
+      box.push_back(series_.rangeOf(static_cast<int>(i), (turn.most[i] + proof.ofFrame[i] + most[i]) * bounds::up));
+    proof.J = turn.of->derivatives(Interval(set.t) + Interval(0.0, h_), box, parameters);
     following_.setUnits(growth_.units());
     for (std::size_t i = 0; i < n * n; ++i) {
-      if (!isCommon(J[i])) return false;
-      following_.A(static_cast<int>(i / n), static_cast<int>(i % n)) = magnitude(J[i]);
+      if (!isCommon(proof.J[i])) return false;
+      following_.A(static_cast<int>(i / n), static_cast<int>(i % n)) = magnitude(proof.J[i]);
     }
-    std::vector<double> rest = restOfFrame(turn, J, since);
-    for (std::size_t i = 0; i < n; ++i) rest[i] = (rest[i] + defect[i]) * bounds::up;
-    crossed_.assign(n, 0.0);
-    isProved = true;
-    if (stops) boundSoon(turn, J, untilMoment, rest, slack);
-    if (stops ? turn.soon.empty() : !following_.compute(longest)) return false;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (stops) {
-        crossed_[i] = turn.soon[i];
-        isProved = isProved && crossed_[i] < most[i];
-        continue;
-      }
-      double sum = slack[i] + bounds::tiny;
+    const std::vector<double> rest = driveOf(proof.J);
+    if (turn.stops()) boundSoon(turn, proof.J, proof.before, rest, proof.slack);
+    if (turn.stops() ? turn.soon.empty() : !following_.compute(proof.longest)) return false;
+    crossed_ = turn.stops() ? turn.soon : proof.slack;
+    for (std::size_t i = 0; i < n && !turn.stops(); ++i) {
+      double sum = proof.slack[i] + bounds::tiny;
       for (std::size_t j = 0; j < n; ++j) {
         const int row = static_cast<int>(i), column = static_cast<int>(j);
         sum += following_.M0(row, column) * before[j] + following_.M1(row, column) * rest[j];
       }
       crossed_[i] = sum * bounds::up;
-      isProved = isProved && crossed_[i] < most[i];
     }
+    isProved = true;
+    for (std::size_t i = 0; i < n; ++i) isProved = isProved && crossed_[i] < most[i];
     for (std::size_t i = 0; i < n && !isProved; ++i) most[i] = std::max(most[i], 1.5 * crossed_[i]);
   }
-  if (!isProved) return false;
-  if (mayStop_ && !stops) {
-    std::vector<double> left = restOfFrame(turn, J, since);
-    for (std::size_t i = 0; i < n; ++i) left[i] = (left[i] + defect[i]) * bounds::up;
-    boundSoon(turn, J, untilMoment, left, slack);
-  }
-  turn.before = e1_;
-  // Where moments are known too badly to follow what depends on them, other steps say more.
+  if (isProved && mayStop_ && !turn.stops()) boundSoon(turn, proof.J, proof.before, driveOf(proof.J), proof.slack);
+  return isProved;
+}
+
+/// Where moments are known too badly to follow what depends on them, other steps say more.
+bool FlowStepper::isTurnLost(const Turn& turn, const TurnProof& proof) {
   constexpr double mostLost = 1e-2, wanted = 1e-4, ofDegree = 0.1, little = 1e-9;
   bool isLost = false;
   hasLostTurn_ = false;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < at(n_); ++i) {
     const double beside = 4 * heldTube_[i] + little * scale_[i];
     isLost = isLost || crossed_[i] > mostLost * turn.extent[i] + beside;
     hasLostTurn_ =
-        hasLostTurn_ || (crossed_[i] > wanted * turn.extent[i] + beside && truncated[i] > ofDegree * crossed_[i]);
+        hasLostTurn_ || (crossed_[i] > wanted * turn.extent[i] + beside && proof.truncated[i] > ofDegree * crossed_[i]);
   }
   isTurnMixed_ = isLost && !hasLostTurn_;
-  if (isLost) return false;
-  for (std::size_t i = 0; i < n; ++i) {
+  return isLost;
+}
+
+/// Whether those that have turned are in the step's tube, which else is lifted to them.
+bool FlowStepper::isTurnInTube(const Turn& turn, const TurnProof& proof) {
+  bool isInTube = true;
+  for (std::size_t i = 0; i < at(n_); ++i) {
     const double reach = (turn.most[i] + crossed_[i]) * bounds::up;
-    if ((ofFrame[i] + reach) * bounds::up < y_[i]) continue;
-    isProved = false;
-    const double lacking = ofFrame[i] + 1.25 * reach - (y_[i] - lift_[i]);
+    if ((proof.ofFrame[i] + reach) * bounds::up < y_[i]) continue;
+    isInTube = false;
+    const double lacking = proof.ofFrame[i] + 1.25 * reach - (y_[i] - lift_[i]);
     lift_[i] = std::max({1.25 * lift_[i], 1.5 * reach, lacking});
   }
-  if (!isProved) return false;
-  // Of those let go: D may be taken to begin `away` too soon.
+  return isInTube;
+}
+
+/// How far solutions are from x̃ + D, where D may be taken to begin `away` too soon; and what chords of the step miss.
+std::vector<double> FlowStepper::tubeOnceTurned(Turn& turn, const TurnProof& proof) {
   std::vector<double> tube;
-  for (std::size_t i = 0; i < n; ++i) {
-    tube.push_back((ofFrame[i] + crossed_[i] + turn.within(i, turn.away)) * bounds::up + bounds::tiny);
+  const double since = proof.since;
+  for (std::size_t i = 0; i < at(n_); ++i) {
+    tube.push_back((proof.ofFrame[i] + crossed_[i] + turn.within(i, turn.away)) * bounds::up + bounds::tiny);
     // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss, by which it
     // may be there before m(ξ).
     const double steepest = turn.slope[i] + since * (turn.bend[i] + 0.5 * since * turn.twist[i]);
     // Of those that are stopped D lasts for `since` at most, and a chord may be longer: all that D becomes counts.
-    const double atOnce = stops ? std::max(turn.most[i], since * steepest) : turn.within(i, turn.away);
-    turn.jolt.push_back((atOnce + turn.leapt[i] + (stops ? since : turn.away) * turn.turned[i] + crossed_[i]) *
+    const double atOnce = turn.stops() ? std::max(turn.most[i], since * steepest) : turn.within(i, turn.away);
+    turn.jolt.push_back((atOnce + turn.leapt[i] + (turn.stops() ? since : turn.away) * turn.turned[i] + crossed_[i]) *
                         bounds::up);
     e1_[i] =
         (e1_[i] + crossed_[i] + std::max(turn.most[i], since * steepest) + turn.leapt[i] + since * turn.turned[i]) *
         bounds::up;
   }
-  if (!of.rebound(tube.data()) || !holdOnceTurned(set, turn, states, tube)) return false;
-  if (leavesOnceTurned_ = !stayOnceTurned(set, turn, states, tube); leavesOnceTurned_) return false;
+  return tube;
+}
+
+/// From then on z = x - x̃ - (Ψ̃ + S + K (t - m(ξ)))(r + Γs) - D obeys z' = J̄_a z + (f_a(x̃ + D) - x̃' - D') + (J̄_a (Ψ̃ + S
+/// + K (t - m)) - Ψ̃' - K)(r + Γs), J_a = ∂f_a/∂x on the way from x̃ + D to x. Whether it is so small that x is in the
+/// step's tube, and the rate of those let go grows.
+bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn,
+                            double& relativeDefect) {
+  TurnProof proof;
+  if (!boundDefect(set, signs, turn, proof, relativeDefect) || !boundOnceTurned(set, signs, turn, proof)) return false;
+  turn.before = e1_;
+  if (isTurnLost(turn, proof) || !isTurnInTube(turn, proof)) return false;
+  FlowTurn& of = *turn.of;
+  const std::vector<double> tube = tubeOnceTurned(turn, proof);
+  if (!of.rebound(tube.data()) || !holdOnceTurned(set, turn, proof.states, tube)) return false;
+  if (leavesOnceTurned_ = !stayOnceTurned(set, turn, proof.states, tube); leavesOnceTurned_) return false;
   const Interval growth = onceTurned(of, of.isAhead(), turn);
   if (!(growth.lower() > 0) || !(onceTurned(of, of.isAttracted(), turn).lower() > 0)) return false;
   if (!turn.releases()) return true;

@@ -57,7 +57,54 @@ auto frameOf(const FlowPoint& point, int g) {
   return Eigen::Map<const RowMajor>(point.psi.data() + g * n * n, n, n);
 }
 
+/// Σ c_i σ^i up to order m by Horner's scheme with its running error: fl(fl(sσ) + c) is off by u|fl(sσ)| + u|result|,
+/// times the σ's that follow.
+inline double hornerWithError(const double* c, int m, double sigma, double& error) {
+  double s = c[m], e = 0;
+  for (int i = m - 1; i >= 0; --i) {
+    const double product = s * sigma;
+    s = product + c[i];
+    e = e * sigma + bounds::unit * (std::fabs(product) + std::fabs(s));
+  }
+  error += sigma == 0 ? 0.0 : e * bounds::up + bounds::tiny;
+  return s;
+}
+
+/// Likewise of a state with second doubles, up to order m: (s + low)σ + c + l errs by less than 16u² of both.
+detail::DoubleDouble fineHornerOf(const PolynomialSeries& series, int state, int m, double sigma, double& error) {
+  const double* c = series.series(state);
+  detail::DoubleDouble s{c[m], 0};
+  double e = 0;
+  for (int i = m - 1; i >= 0; --i) {
+    detail::DoubleDouble product = detail::exactProduct<false>(s.hi, sigma);
+    product = detail::exactSum(product.hi, product.lo + s.lo * sigma);
+    s = detail::exactSum(product.hi, c[i]);
+    s = detail::exactSum(s.hi, s.lo + (product.lo + series.low(state, i)));
+    e = e * sigma + bounds::fine * (std::fabs(product.hi) + std::fabs(c[i]));
+  }
+  error += sigma == 0 ? 0.0 : e * bounds::up + bounds::tiny;
+  return s;
+}
+
+/// The columns of Ψ, by how long they make a box of these radii: the longest first.
+std::vector<int> byLength(const Eigen::MatrixXd& psi, const std::vector<double>& radii) {
+  std::vector<int> order(radii.size());
+  std::iota(order.begin(), order.end(), 0);
+  const double largest = *std::max_element(radii.begin(), radii.end());
+  std::vector<double> length;
+  for (const int j : order)
+    length.push_back(psi.col(j).norm() * (largest > 0 ? std::max(radii[at(j)], 1e-20 * largest) : 1.0));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[at(a)] > length[at(b)]; });
+  return order;
+}
+
 }  // namespace
+
+/// What is left of generators, a box: its radii, and Σ_α |Ψ_α|.
+struct FlowStepper::GeneratorRest {
+  Eigen::VectorXd sum;
+  Eigen::MatrixXd frame;
+};
 
 void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed,
                            std::optional<Interval> moments) {
@@ -83,41 +130,18 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
   point.psi.assign(at(NJ * n_ * n_), 0.0);
   point.psiSum.assign(at(n_ * n_), 0.0);
   point.loose.assign(at(n_), 0.0);
-  // Horner's scheme with its running error: fl(fl(sσ) + c) is off by u|fl(sσ)| + u|result|, times the σ's that follow.
-  const auto horner = [&](const double* c, double& error) {
-    double s = c[m_], e = 0;
-    for (int i = m_ - 1; i >= 0; --i) {
-      const double product = s * sigma;
-      s = product + c[i];
-      e = e * sigma + bounds::unit * (std::fabs(product) + std::fabs(s));
-    }
-    error += sigma == 0 ? 0.0 : e * bounds::up + bounds::tiny;
-    return s;
-  };
-  // Likewise with second doubles: (s + low)σ + c + l errs by less than 16u² of both.
-  const auto fineHorner = [&](int state, double& low, double& error) {
-    const double* c = series_.series(state);
-    detail::DoubleDouble s{c[m_], 0};
-    double e = 0;
-    for (int i = m_ - 1; i >= 0; --i) {
-      detail::DoubleDouble product = detail::exactProduct<false>(s.hi, sigma);
-      product = detail::exactSum(product.hi, product.lo + s.lo * sigma);
-      s = detail::exactSum(product.hi, c[i]);
-      s = detail::exactSum(s.hi, s.lo + (product.lo + series_.low(state, i)));
-      e = e * sigma + bounds::fine * (std::fabs(product.hi) + std::fabs(c[i]));
-    }
-    error += sigma == 0 ? 0.0 : e * bounds::up + bounds::tiny;
-    low = s.lo;
-    return s.hi;
-  };
   point.low.assign(at(n_), 0.0);
   point.known.assign(at(n_), 0.0);
   for (int i = 0; i < n_; ++i) {
     double error = 0;
-    if (series_.isFine())
-      point.p[at(i)] = fineHorner(i, point.low[at(i)], error);
-    else
-      for (int g = 0; g < N; ++g) point.p[at(i * N + g)] = horner(series_.series(i) + g * stride, error);
+    if (series_.isFine()) {
+      const detail::DoubleDouble x = fineHornerOf(series_, i, m_, sigma, error);
+      point.p[at(i)] = x.hi;
+      point.low[at(i)] = x.lo;
+    } else {
+      for (int g = 0; g < N; ++g)
+        point.p[at(i * N + g)] = hornerWithError(series_.series(i) + g * stride, m_, sigma, error);
+    }
     point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + left[at(i)];  // the start is known
   }
   point.total = total_;
@@ -126,10 +150,11 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
     for (int j = 0; j < n_; ++j) {
       double error = 0;
       const double* psi = series_.frame(i, j);
-      for (int g = 0; g < NJ; ++g) point.psi[at((g * n_ + i) * n_ + j)] = horner(psi + g * stride, error);
+      for (int g = 0; g < NJ; ++g)
+        point.psi[at((g * n_ + i) * n_ + j)] = hornerWithError(psi + g * stride, m_, sigma, error);
       if (tau != 0) point.loose[at(i)] += (error + epsilon_[at(i * n_ + j)]) * point.total[at(j)];
     }
-  if (crosses) addCrossings(set, tau, point);
+  for (std::size_t k = 0; crosses && k < crossings_.size(); ++k) addCrossing(set, crossings_[k], tau, point);
   if (crosses && turn_ && !isHeldStill) addTurn(tau, point, *moments);
   // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|. Of inputs n + 1 in what is linear in ξ, and one
   // more for each symbol in drivenRadius, which sums with signs: n + 1 + mostCorners ≤ 2n + 8.
@@ -272,6 +297,26 @@ void FlowStepper::sag(double from, double to, std::vector<FlowSag>& sags) const 
   }
 }
 
+/// Generators become `turn` times these and the columns of `fresh`, and the oldest errors' a box: what that is, but for
+/// roundings.
+Eigen::VectorXd FlowStepper::turnGenerators(FlowSet& set, const Eigen::MatrixXd& turn, const Eigen::MatrixXd& fresh) {
+  using Matrix = Eigen::MatrixXd;
+  const auto before = columnsOf(set.generators, n_);
+  Matrix moved(n_, before.cols() + n_);
+  moved.leftCols(before.cols()).noalias() = turn * before;
+  moved.rightCols(n_) = fresh;
+  const Eigen::Index held = (inputs_.empty() ? stepsKept(n_) : stepsBesideInputs(n_ * n_)) * n_;
+  const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - held);
+  const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
+  set.generators.assign(moved.data() + oldest * n_, moved.data() + moved.size());
+  if (!inputs_.empty()) {
+    set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
+    const Matrix driven = turn * columnsOf(std::as_const(set.inputs), n_);
+    set.inputs.assign(driven.data(), driven.data() + driven.size());
+  }
+  return merged;
+}
+
 /// Without symbols: QR of the frame, so that the oldest errors' box turns with the motion.
 void FlowStepper::turnFrame(FlowSet& set) {
   using Matrix = Eigen::MatrixXd;
@@ -283,20 +328,13 @@ void FlowStepper::turnFrame(FlowSet& set) {
   const Matrix psi = unit.cwiseInverse().asDiagonal() * frameOf(end_, 0);
 
   // Q, T: QR of Ψ, columns sorted by length × R, so that the longest keeps its direction.
-  std::vector<int> order(at(n_));
-  std::iota(order.begin(), order.end(), 0);
-  const std::vector<double>& all = end_.total;
-  const double largestR = *std::max_element(all.begin(), all.end());
-  std::vector<double> length(at(n_));
-  for (int j = 0; j < n_; ++j)
-    length[at(j)] = psi.col(j).norm() * (largestR > 0 ? std::max(all[at(j)], 1e-20 * largestR) : 1.0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[at(a)] > length[at(b)]; });
+  const std::vector<int> order = byLength(psi, end_.total);
   Matrix sorted(n_, n_);
   Eigen::VectorXd R(n_), total(n_), w(n_);
   for (int j = 0; j < n_; ++j) {
     sorted.col(j) = psi.col(order[at(j)]);
     R(j) = set.R[at(order[at(j)])];
-    total(j) = all[at(order[at(j)])];
+    total(j) = end_.total[at(order[at(j)])];
     w(j) = end_.loose[at(j)] / unit(j);
   }
   const Matrix Q = Eigen::HouseholderQR<Matrix>(sorted).householderQ();
@@ -322,21 +360,9 @@ void FlowStepper::turnFrame(FlowSet& set) {
   box += (n_ + 1) * bounds::unit * (T.cwiseAbs() * total + turned);
   Matrix turn(n_, n_);  // T, its columns where the generators' components stand
   for (int k = 0; k < n_; ++k) turn.col(order[at(k)]) = T.col(k);
-  const auto before = columnsOf(set.generators, n_);
-  Matrix moved(n_, before.cols() + n_);
-  moved.leftCols(before.cols()).noalias() = turn * before;
-  moved.rightCols(n_) = (w.asDiagonal() * Q).transpose();
-  const Eigen::Index held = (inputs_.empty() ? stepsKept(n_) : stepsBesideInputs(n_ * n_)) * n_;
-  const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - held);
-  const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
+  const Eigen::VectorXd merged = turnGenerators(set, turn, (w.asDiagonal() * Q).transpose());
   Eigen::Map<Eigen::VectorXd>(set.R.data(), n_) = (T.cwiseAbs() * R + merged + box) * bounds::up;
-  set.generators.assign(moved.data() + oldest * n_, moved.data() + moved.size());
-  if (!inputs_.empty()) {
-    set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
-    const Matrix driven = turn * columnsOf(std::as_const(set.inputs), n_);
-    set.inputs.assign(driven.data(), driven.data() + driven.size());
-    mergeInputs(set, at(inputs_.count()), mostInputNumbers);
-  }
+  if (!inputs_.empty()) mergeInputs(set, at(inputs_.count()), mostInputNumbers);
   for (int i = 0; i < n_; ++i) {
     set.W[at(i)] = 0;
     for (int j = 0; j < n_; ++j) {
@@ -347,20 +373,13 @@ void FlowStepper::turnFrame(FlowSet& set) {
   }
 }
 
-/// With symbols: generators Γ_j(ξ) become Ψ(ξ) Γ_j(ξ), up to their degree; nothing is inverted, whatever Ψ has of ξ. C
-/// is the identity from then on. What is cut off and w enter as generators of their own.
-void FlowStepper::carryGenerators(FlowSet& set) {
+/// Ψ(ξ) Γ_j(ξ) up to the generators' degree, of what is not little beside what the step leaves over; and what that
+/// leaves out, |Ψ_α| Σ_j |Γ_j|_β: what is beyond the degree, and little.
+void FlowStepper::multiplyGenerators(FlowSet& set, GeneratorRest& rest) {
   using Matrix = Eigen::MatrixXd;
   const Monomials& m = monomials();
-  const int powers = series_.frameCount();
-  if (std::ranges::any_of(set.R, [](double r) { return r > 0; })) countAsGenerators([&] { appendBox(set, set.R); });
-  set.R.assign(at(n_), 0.0);
+  const int powers = series_.frameCount(), degree = m.grade(powers - 1);
   const auto block = static_cast<Eigen::Index>(set.generators.size() / set.powers), count = block / n_;
-  // All columns of which ofGenerators_ is the work.
-  const std::size_t ofInputs = (set.inputs.size() + inputs_.generators().size()) / at(n_);
-  const double columns = static_cast<double>(count) + static_cast<double>(ofInputs);
-  // What is beyond the degree, and products that are little beside what the step leaves over: |Ψ_α| Σ_j |Γ_j|_β.
-  const int degree = m.grade(powers - 1);
   std::vector<Matrix> frames, high(at(degree) + 1, Matrix::Zero(n_, n_));            // Σ |Ψ_α| of grades ≥ q
   std::vector<Eigen::VectorXd> sizes, size(high.size(), Eigen::VectorXd::Zero(n_));  // of a monomial, of a grade
   Eigen::VectorXd all = Eigen::VectorXd::Zero(n_);
@@ -374,9 +393,9 @@ void FlowStepper::carryGenerators(FlowSet& set) {
     size[at(m.grade(g))] += sizes.back();
     all += sizes.back();
   }
-  Eigen::VectorXd rest = Eigen::Map<const Eigen::VectorXd>(end_.loose.data(), n_),
-                  little = (m.symbols() > few ? littleOfMany : littleOfFew) * rest;
-  for (int q = 1; q <= degree; ++q) rest += high[at(degree - q + 1)] * size[at(q)];
+  rest.sum = Eigen::Map<const Eigen::VectorXd>(end_.loose.data(), n_);
+  Eigen::VectorXd little = (m.symbols() > few ? littleOfMany : littleOfFew) * rest.sum;
+  for (int q = 1; q <= degree; ++q) rest.sum += high[at(degree - q + 1)] * size[at(q)];
   std::vector<kernels::ColumnTerm> terms;
   int most = 1;
   for (int g = powers; g-- > 0;) {
@@ -386,7 +405,7 @@ void FlowStepper::carryGenerators(FlowSet& set) {
       const Eigen::VectorXd product = frames[at(a)] * sizes[at(b)];
       if ((product.array() <= little.array()).all()) {
         little -= product;
-        rest += product;
+        rest.sum += product;
       } else {
         terms.push_back({g, a, b});
       }
@@ -399,47 +418,67 @@ void FlowStepper::carryGenerators(FlowSet& set) {
                              carried_.data());
   });
   // Entries are sums of n products for each pair, at most; those of inputs of n for their own and one symbol.
-  rest += (n_ * most + 2) * bounds::unit * (high[0] * all);
-  if (!inputs_.empty()) {
-    Work::count(Work::matrixTerm,
-                static_cast<double>(set.inputs.size()) * (n_ + 4) * static_cast<double>(1 + 2 * set.half.size()));
-    std::vector<double> own(at(n_), 0.0), ofXi(at(n_), 0.0);
-    set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
-    set.inputsOfXi.resize(set.half.size());
-    addColumnSizes(set.inputs, own);
-    const auto inputs = columnsOf(std::as_const(set.inputs), n_);
-    Matrix higher = high[0] * bounds::up - frameOf(end_, 0).cwiseAbs() * bounds::down, any = higher;
-    for (std::size_t l = 0; l < set.inputsOfXi.size(); ++l) {
-      set.inputsOfXi[l].resize(set.inputs.size(), 0.0);
-      addColumnSizes(set.inputsOfXi[l], ofXi);
-      Matrix driven = frameOf(end_, 0) * columnsOf(std::as_const(set.inputsOfXi[l]), n_);
-      if (const int g = m.linear(static_cast<int>(l)); g >= 0 && g < powers) {
-        driven += frameOf(end_, g) * inputs;
-        higher -= frameOf(end_, g).cwiseAbs() * bounds::down;
-      }
-      set.inputsOfXi[l].assign(driven.data(), driven.data() + driven.size());
+  rest.sum += (n_ * most + 2) * bounds::unit * (high[0] * all);
+  rest.frame = high[0];
+}
+
+/// Likewise what inputs did, to the first order in ξ.
+void FlowStepper::carryInputs(FlowSet& set, GeneratorRest& rest) {
+  using Matrix = Eigen::MatrixXd;
+  const Monomials& m = monomials();
+  Work::count(Work::matrixTerm,
+              static_cast<double>(set.inputs.size()) * (n_ + 4) * static_cast<double>(1 + 2 * set.half.size()));
+  std::vector<double> own(at(n_), 0.0), ofXi(at(n_), 0.0);
+  set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
+  set.inputsOfXi.resize(set.half.size());
+  addColumnSizes(set.inputs, own);
+  const auto inputs = columnsOf(std::as_const(set.inputs), n_);
+  Matrix higher = rest.frame * bounds::up - frameOf(end_, 0).cwiseAbs() * bounds::down, any = higher;
+  for (std::size_t l = 0; l < set.inputsOfXi.size(); ++l) {
+    set.inputsOfXi[l].resize(set.inputs.size(), 0.0);
+    addColumnSizes(set.inputsOfXi[l], ofXi);
+    Matrix driven = frameOf(end_, 0) * columnsOf(std::as_const(set.inputsOfXi[l]), n_);
+    if (const int g = m.linear(static_cast<int>(l)); g >= 0 && g < series_.frameCount()) {
+      driven += frameOf(end_, g) * inputs;
+      higher -= frameOf(end_, g).cwiseAbs() * bounds::down;
     }
-    const Eigen::Map<const Eigen::VectorXd> ownSize(own.data(), n_), ofXiSize(ofXi.data(), n_);
-    rest += higher.cwiseMax(0.0) * ownSize + any * ofXiSize +
-            (2 * n_ + 3) * bounds::unit * (high[0] * (ownSize + ofXiSize));
-    const Matrix driven = frameOf(end_, 0) * inputs;
-    set.inputs.assign(driven.data(), driven.data() + driven.size());
+    set.inputsOfXi[l].assign(driven.data(), driven.data() + driven.size());
   }
+  const Eigen::Map<const Eigen::VectorXd> ownSize(own.data(), n_), ofXiSize(ofXi.data(), n_);
+  rest.sum += higher.cwiseMax(0.0) * ownSize + any * ofXiSize +
+              (2 * n_ + 3) * bounds::unit * (rest.frame * (ownSize + ofXiSize));
+  const Matrix driven = frameOf(end_, 0) * inputs;
+  set.inputs.assign(driven.data(), driven.data() + driven.size());
+}
+
+/// With symbols: generators Γ_j(ξ) become Ψ(ξ) Γ_j(ξ), up to their degree; nothing is inverted, whatever Ψ has of ξ. C
+/// is the identity from then on. What is cut off and w enter as generators of their own.
+void FlowStepper::carryGenerators(FlowSet& set) {
+  const int powers = series_.frameCount();
+  if (std::ranges::any_of(set.R, [](double r) { return r > 0; })) countAsGenerators([&] { appendBox(set, set.R); });
+  set.R.assign(at(n_), 0.0);
+  // All columns of which ofGenerators_ is the work.
+  const std::size_t ofInputs = (set.inputs.size() + inputs_.generators().size()) / at(n_);
+  const double columns =
+      static_cast<double>(set.generators.size() / set.powers / at(n_)) + static_cast<double>(ofInputs);
+  GeneratorRest rest;
+  multiplyGenerators(set, rest);
+  if (!inputs_.empty()) carryInputs(set, rest);
   set.generators.swap(carried_);
   std::vector<double> fresh(at(n_));
-  for (int i = 0; i < n_; ++i) fresh[at(i)] = rest(i) * bounds::up + bounds::tiny;
+  for (int i = 0; i < n_; ++i) fresh[at(i)] = rest.sum(i) * bounds::up + bounds::tiny;
   set.W.assign(at(n_), 0.0);
   for (std::size_t i = 0; i < arrives_.size(); ++i)  // of what arrives a hull alone is known: boundArrivals
     if (arrives_[i] != 0 && end_.known[i] > 0) std::swap(set.W[i], fresh[i]);
   appendBox(set, fresh);
   mergeInputs(set, at(inputs_.count()), mostInputNumbers);
   double kept = std::max(leastKept, keptAState * n_);
-  if (m.symbols() > few && ofGenerators_ > 0) {
+  if (monomials().symbols() > few && ofGenerators_ > 0) {
     const double affordable = carriedShare * certified_ * columns / ofGenerators_;
     kept = std::max(kept, std::min(affordable, mostNumbers / (static_cast<double>(powers) * n_)));
   }
   const std::size_t there = set.generators.size() / (set.powers * at(n_));
-  if (static_cast<double>(there) > kept) mergeGenerators(set, m, static_cast<std::size_t>(kept / 2));
+  if (static_cast<double>(there) > kept) mergeGenerators(set, monomials(), static_cast<std::size_t>(kept / 2));
   set.C.assign(at(n_ * n_), 0.0);
   for (int i = 0; i < n_; ++i) set.C[at(i * n_ + i)] = 1;
 }
