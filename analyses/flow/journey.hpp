@@ -187,14 +187,18 @@ class FlowFollower {
   bool meetsBeside(const FlowPiece& piece, StepOutcome outcome);
   struct OwnCell;
   struct OwnMoment;
+  class OwnChords;
+  class OwnRows;
   bool recordOwnTimes(FlowPiece& piece, bool stopsOnceTurned);
   void recordOver(FlowPiece& piece, const std::vector<std::size_t>& rows);
-  void recordAt(FlowPiece& piece, const std::vector<std::size_t>& rows, bool stopsOnceTurned);
   OwnCell wholeCell(const FlowPiece& piece) const;
   OutputTools* outputsOnSides(const FlowPiece& piece);
   OwnCell half(const OwnCell& cell, int symbol, double middle) const;
   double locate(const FlowPiece& piece, const OwnCell& cell, const OwnMoment& when, bool hasTurned,
                 FlowPoint& point) const;
+  bool encloseWithin(const std::vector<BoundedPolynomial>& limits, std::size_t row, std::vector<Interval>& states);
+  void appendWithin(OutputTools& tools, const FlowPiece& own, const std::vector<BoundedPolynomial>& limits,
+                    std::size_t row, const std::vector<Interval>& states, std::vector<Interval>& outputs);
   void collect(const FlowPiece& piece, const OwnCell& cell, FlowPoint point, const Interval& when,
                const std::vector<BoundedPolynomial>& limits, bool hasTurned, std::size_t row);
   void endRows(FlowPiece& piece);

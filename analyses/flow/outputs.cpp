@@ -66,17 +66,12 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
   }
 }
 
-/// False if one could not be bounded: then nothing is known of any.
-bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::vector<double>& R,
-                                   const std::vector<Embedded>& parameters) {
-  const auto beside = [&](std::vector<double> bound) {  // p alone is seen here
-    for (std::size_t i = 0; i < bound.size(); ++i) bound[i] += std::fabs(point.low[i]);
-    return bound;
-  };
-  std::vector<double> radius = beside(point.radius), loose = beside(point.loose);
+/// The states' polynomials in monomials of the outputs; the rest goes into both bounds: the mean-value form holds about
+/// what is kept, with so much more that is loose.
+void FlowOutputs::setStates(const FlowPoint& point, std::vector<double>& radius, std::vector<double>& loose) {
   for (int i = 0; i < n_; ++i) {
     state_.assign(at(monomials_), 0.0);
-    double dropped = 0;  // of p: the mean-value form below holds about what is kept, with so much more that is loose
+    double dropped = 0;
     for (std::size_t m = 0; m < place_.size(); ++m) {
       const double coefficient = point.p[at(i) * place_.size() + m];
       if (place_[m] < 0)
@@ -88,53 +83,39 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
       if (dropped > 0) (*bound)[at(i)] = ((*bound)[at(i)] + dropped) * bounds::up;
     series_.setState(i, state_.data());
   }
-  for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
-  series_.compute(t, 1.0);
-  const double infinite = std::numeric_limits<double>::infinity();
-  std::fill(radius_.begin(), radius_.end(), infinite);
-  series_.forgetJumps();
-  if (!series_.tabulate(1.0) || (series_.hasJumps() && !series_.bound(radius.data(), true)) ||
-      !series_.bound(nullptr, true)) {
-    series_.clear();
-    return false;
-  }
-  std::vector<double> along(at(outputs_));
-  for (int o = 0; o < outputs_; ++o) {
-    const int node = series_.outputNode(o);
-    for (int g = 0; g < monomials_; ++g)
-      polynomial_[at(o * monomials_ + g)] = series_.series(node)[g * series_.stride()];
-    along[at(o)] = series_.rho0(node) + series_.rho1(node);
-    driven_[at(o)] = 0;
-  }
+}
+
+/// |g(p) - its polynomial|, of the set bounded last.
+double FlowOutputs::alongOf(int output) const {
+  const int node = series_.outputNode(output);
+  return series_.rho0(node) + series_.rho1(node);
+}
+
+/// What signs that may be this or that do to outputs.
+void FlowOutputs::countSigns(const std::vector<Embedded>& parameters, const std::vector<double>& along) {
   const auto firstSign = parameters.end() - static_cast<std::ptrdiff_t>(signs_);
-  if (std::any_of(firstSign, parameters.end(), [](const Embedded& sign) { return sign.radius > 0; })) {
-    const auto give = [&](bool withRadius) {
-      for (auto sign = firstSign; sign != parameters.end(); ++sign)
-        series_.setParameter(static_cast<int>(sign - parameters.begin()),
-                             {sign->centre, 0, withRadius ? sign->radius : 0.0});
-    };
-    give(false);
-    const bool isBounded = series_.bound(nullptr, true);
-    for (int o = 0; o < outputs_ && isBounded; ++o) {
-      const int node = series_.outputNode(o);
-      driven_[at(o)] = std::max(0.0, along[at(o)] - series_.rho0(node) - series_.rho1(node));
-    }
-    give(true);
+  if (!std::any_of(firstSign, parameters.end(), [](const Embedded& sign) { return sign.radius > 0; })) return;
+  const auto give = [&](bool withRadius) {
+    for (auto sign = firstSign; sign != parameters.end(); ++sign)
+      series_.setParameter(static_cast<int>(sign - parameters.begin()),
+                           {sign->centre, 0, withRadius ? sign->radius : 0.0});
+  };
+  give(false);
+  const bool isBounded = series_.bound(nullptr, true);
+  for (int o = 0; o < outputs_ && isBounded; ++o) {
+    const int node = series_.outputNode(o);
+    driven_[at(o)] = std::max(0.0, along[at(o)] - series_.rho0(node) - series_.rho1(node));
   }
-  if (!varying_.empty()) {  // inputs enter outputs themselves: |g(p, w) - g(p, centre)|
-    const std::vector<double> none(at(n_), 0.0);
-    if (!series_.bound(none.data(), true)) return false;
-    for (int o = 0; o < outputs_; ++o) {
-      const double withInputs = series_.rho0(series_.outputNode(o)) + series_.rho1(series_.outputNode(o));
-      driven_[at(o)] += std::max(0.0, withInputs - along[at(o)]);
-      along[at(o)] = std::max(along[at(o)], withInputs);
-    }
-  }
-  // y - g(p) = G (x - p) with G in ∂g/∂x on the hull, |G - G₀| ≤ ρ:  |y - g(p)| ≤ Σ_j |(G₀Ψ₀)_j| R_j + what is left.
-  if (!series_.bound(radius.data(), false)) return false;
-  std::vector<double> centre(at(outputs_ * n_)), sums(at(outputs_));  // G₀, all outputs' rows
+  give(true);
+}
+
+/// y - g(p) = G (x - p) with G in ∂g/∂x on the hull, |G - G₀| ≤ ρ:  |y - g(p)| ≤ Σ_j |(G₀Ψ₀)_j| R_j + what is left, but
+/// for generators. Adds that to `sums`; returns G₀, all outputs' rows.
+std::vector<double> FlowOutputs::addBeside(const FlowPoint& point, const std::vector<double>& R,
+                                           const std::vector<double>& loose, std::vector<double>& sums) {
+  std::vector<double> centre(at(outputs_ * n_));
   for (int o = 0; o < outputs_; ++o) {
-    double sum = along[at(o)];
+    double& sum = sums[at(o)];
     double* G = centre.data() + at(o * n_);
     std::vector<double> spread(at(n_));
     for (int k = 0; k < n_; ++k) {
@@ -158,28 +139,68 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
       sum += std::fabs(along0) * R[at(j)] + ((2 * n_ + 4) * bounds::unit * size + wide) * point.total[at(j)] +
              rest * point.ofR[at(j)];
     }
-    sums[at(o)] = sum;
   }
-  // Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, of inputs (n+5) u with their five symbols at
-  // most (drivenRadius): both are counted with `size` above.
+  return centre;
+}
+
+/// Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, of inputs (n+5) u with their five symbols at
+/// most (drivenRadius): both are counted with `size` above.
+void FlowOutputs::addGenerators(const FlowPoint& point, const std::vector<double>& centre, std::vector<double>& sums) {
   const auto count = [&](std::size_t numbers) { return n_ > 0 ? static_cast<int>(numbers / at(n_)) : 0; };  // columns
   kernels::addProductSizes(centre.data(), outputs_, n_, point.zonotope.data(), count(point.ofErrors), sums.data());
-  if (point.zonotope.size() > point.ofErrors) {
-    const auto along0 = [&](const double* columns, std::size_t numbers) {  // [column][output]
-      std::vector<double> result(at(count(numbers) * outputs_));
-      kernels::multiplyColumns({{0, 0, 0}}, centre.data(), outputs_, n_, columns, count(numbers), result.data());
-      return result;
-    };
-    std::vector<std::vector<double>> ofXi;
-    for (const std::vector<double>& columns : point.drivenOfXi) ofXi.push_back(along0(columns.data(), columns.size()));
-    const std::vector<double> own = along0(&point.zonotope[point.ofErrors], point.zonotope.size() - point.ofErrors);
+  if (point.zonotope.size() <= point.ofErrors) return;
+  const auto along0 = [&](const double* columns, std::size_t numbers) {  // [column][output]
+    std::vector<double> result(at(count(numbers) * outputs_));
+    kernels::multiplyColumns({{0, 0, 0}}, centre.data(), outputs_, n_, columns, count(numbers), result.data());
+    return result;
+  };
+  std::vector<std::vector<double>> ofXi;
+  for (const std::vector<double>& columns : point.drivenOfXi) ofXi.push_back(along0(columns.data(), columns.size()));
+  const std::vector<double> own = along0(&point.zonotope[point.ofErrors], point.zonotope.size() - point.ofErrors);
+  for (int o = 0; o < outputs_; ++o) {
+    const double driven = drivenRadius(own, ofXi, at(o), at(outputs_)) * bounds::up;
+    driven_[at(o)] += driven;
+    sums[at(o)] += driven;
+  }
+}
+
+/// False if one could not be bounded: then nothing is known of any.
+bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::vector<double>& R,
+                                   const std::vector<Embedded>& parameters) {
+  const auto beside = [&](std::vector<double> bound) {  // p alone is seen here
+    for (std::size_t i = 0; i < bound.size(); ++i) bound[i] += std::fabs(point.low[i]);
+    return bound;
+  };
+  std::vector<double> radius = beside(point.radius), loose = beside(point.loose);
+  setStates(point, radius, loose);
+  for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
+  series_.compute(t, 1.0);
+  std::fill(radius_.begin(), radius_.end(), std::numeric_limits<double>::infinity());
+  series_.forgetJumps();
+  if (!series_.tabulate(1.0) || (series_.hasJumps() && !series_.bound(radius.data(), true)) ||
+      !series_.bound(nullptr, true)) {
+    series_.clear();
+    return false;
+  }
+  std::vector<double> along(at(outputs_));
+  for (int o = 0; o < outputs_; ++o) {
+    for (int g = 0; g < monomials_; ++g)
+      polynomial_[at(o * monomials_ + g)] = series_.series(series_.outputNode(o))[g * series_.stride()];
+    along[at(o)] = alongOf(o);
+    driven_[at(o)] = 0;
+  }
+  countSigns(parameters, along);
+  if (!varying_.empty()) {  // inputs enter outputs themselves: |g(p, w) - g(p, centre)|
+    const std::vector<double> none(at(n_), 0.0);
+    if (!series_.bound(none.data(), true)) return false;
     for (int o = 0; o < outputs_; ++o) {
-      const double driven = drivenRadius(own, ofXi, at(o), at(outputs_)) * bounds::up;
-      driven_[at(o)] += driven;
-      sums[at(o)] += driven;
+      driven_[at(o)] += std::max(0.0, alongOf(o) - along[at(o)]);
+      along[at(o)] = std::max(along[at(o)], alongOf(o));
     }
   }
-  for (int o = 0; o < outputs_; ++o) radius_[at(o)] = sums[at(o)] * bounds::up;
+  if (!series_.bound(radius.data(), false)) return false;
+  addGenerators(point, addBeside(point, R, loose, along), along);
+  for (int o = 0; o < outputs_; ++o) radius_[at(o)] = along[at(o)] * bounds::up;
   return true;
 }
 

@@ -45,6 +45,12 @@ class FlowOutputs {
   }
 
  private:
+  void setStates(const FlowPoint& point, std::vector<double>& radius, std::vector<double>& loose);
+  double alongOf(int output) const;
+  void countSigns(const std::vector<Embedded>& parameters, const std::vector<double>& along);
+  std::vector<double> addBeside(const FlowPoint& point, const std::vector<double>& R, const std::vector<double>& loose,
+                                std::vector<double>& sums);
+  void addGenerators(const FlowPoint& point, const std::vector<double>& centre, std::vector<double>& sums);
   bool evaluateTogether(double t, const FlowPoint& point, const std::vector<double>& R,
                         const std::vector<Embedded>& parameters);
 
