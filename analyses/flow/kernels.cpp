@@ -172,6 +172,84 @@ GAMUT_INLINE void thinSolution(const ThinNode* v, int x, const ThinSolution& sol
   solution.factors->solve(cur + x, residual);
 }
 
+/// Order i > 0 of node x.
+GAMUT_INLINE void thinOrder(const ThinNode* v, int x, const std::vector<const ThinSolution*>& solutions, int i,
+                            double* cur) {
+  const ThinNode& n = v[x];
+  const ThinNode& a = v[n.a];
+  switch (n.op) {
+    case Op::add:
+      cur[x] = cur[n.a] + cur[n.b];
+      break;
+    case Op::sub:
+      cur[x] = cur[n.a] - cur[n.b];
+      break;
+    case Op::neg:
+      cur[x] = -cur[n.a];
+      break;
+    case Op::abs:
+      cur[x] = *n.slope * cur[n.a];
+      break;
+    case Op::sign:
+      cur[x] = 0;
+      break;
+    case Op::mul:
+      cur[x] = n.scaled
+                   ? a.forward[0] * cur[n.b]
+                   : thinDot(a.forward, v[n.b].reversed, i) + a.forward[0] * cur[n.b] + cur[n.a] * v[n.b].forward[0];
+      break;
+    case Op::sqr:
+      cur[x] = thinDot(a.forward, a.reversed, i) + 2 * (a.forward[0] * cur[n.a]);
+      break;
+    case Op::recip:
+      cur[x] = -(thinDot(n.forward, a.reversed, i) + n.forward[0] * cur[n.a]) * n.forward[0];
+      break;
+    case Op::sqrt:
+      cur[x] = 0.5 * (cur[n.a] - thinDot(n.forward, n.reversed, i)) / n.forward[0];
+      break;
+    case Op::exp:
+      cur[x] = (thinDot(a.derivative, n.reversed, i) + i * cur[n.a] * n.forward[0]) / i;
+      break;
+    case Op::log:
+    case Op::atan:
+      cur[x] = (cur[n.a] - thinDot(n.derivative, v[n.b].reversed, i) / i) / v[n.b].forward[0];
+      break;
+    case Op::sin: {
+      const double slope = i * cur[n.a];
+      cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + slope * v[x + 1].forward[0]) / i;
+      cur[x + 1] = -(thinDot(a.derivative, n.reversed, i) + slope * n.forward[0]) / i;
+      break;
+    }
+    case Op::tanh:
+      cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + i * cur[n.a] * v[x + 1].forward[0]) / i;
+      cur[x + 1] = -(thinDot(n.forward, n.reversed, i) + 2 * (n.forward[0] * cur[x]));
+      break;
+    case Op::solution:
+      if (n.b == 0) thinSolution(v, x, *solutions[static_cast<std::size_t>(n.a)], i, cur);
+      break;
+    default:
+      break;
+  }
+}
+
+/// Order i of all nodes from where it was computed, and a zero behind it.
+GAMUT_INLINE void storeThin(const ThinNode* v, int count, int i, const double* cur) {
+  for (int x = 0; x < count; ++x) {
+    const ThinNode& n = v[x];
+    if (n.invariant) continue;
+    n.forward[i] = cur[x];
+    n.forward[i + 1] = 0;
+    if (n.reversed != nullptr) {
+      n.reversed[-i] = cur[x];
+      n.reversed[-i - 1] = 0;
+    }
+    if (n.derivative != nullptr) {
+      n.derivative[i] = i * cur[x];
+      n.derivative[i + 1] = 0;
+    }
+  }
+}
+
 GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<const ThinSolution*>& solutions,
                                 const std::vector<std::pair<int, int>>& states, const std::vector<ThinSum>& frame,
                                 const ThinLeading& leading, int time, int order, double h0,
@@ -195,76 +273,10 @@ GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::v
       for (int x = time + 1; x < count; ++x) {
         const ThinNode& n = v[x];
         if (n.invariant || n.op == Op::state || isTwin(n.op) || (isLeading && n.fine)) continue;
-        const ThinNode& a = v[n.a];
-        switch (n.op) {
-          case Op::add:
-            cur[x] = cur[n.a] + cur[n.b];
-            break;
-          case Op::sub:
-            cur[x] = cur[n.a] - cur[n.b];
-            break;
-          case Op::neg:
-            cur[x] = -cur[n.a];
-            break;
-          case Op::abs:
-            cur[x] = *n.slope * cur[n.a];
-            break;
-          case Op::sign:
-            cur[x] = 0;
-            break;
-          case Op::mul:
-            cur[x] = n.scaled ? a.forward[0] * cur[n.b]
-                              : thinDot(a.forward, v[n.b].reversed, i) + a.forward[0] * cur[n.b] +
-                                    cur[n.a] * v[n.b].forward[0];
-            break;
-          case Op::sqr:
-            cur[x] = thinDot(a.forward, a.reversed, i) + 2 * (a.forward[0] * cur[n.a]);
-            break;
-          case Op::recip:
-            cur[x] = -(thinDot(n.forward, a.reversed, i) + n.forward[0] * cur[n.a]) * n.forward[0];
-            break;
-          case Op::sqrt:
-            cur[x] = 0.5 * (cur[n.a] - thinDot(n.forward, n.reversed, i)) / n.forward[0];
-            break;
-          case Op::exp:
-            cur[x] = (thinDot(a.derivative, n.reversed, i) + i * cur[n.a] * n.forward[0]) / i;
-            break;
-          case Op::log:
-          case Op::atan:
-            cur[x] = (cur[n.a] - thinDot(n.derivative, v[n.b].reversed, i) / i) / v[n.b].forward[0];
-            break;
-          case Op::sin: {
-            const double slope = i * cur[n.a];
-            cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + slope * v[x + 1].forward[0]) / i;
-            cur[x + 1] = -(thinDot(a.derivative, n.reversed, i) + slope * n.forward[0]) / i;
-            break;
-          }
-          case Op::tanh:
-            cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + i * cur[n.a] * v[x + 1].forward[0]) / i;
-            cur[x + 1] = -(thinDot(n.forward, n.reversed, i) + 2 * (n.forward[0] * cur[x]));
-            break;
-          case Op::solution:
-            if (n.b == 0) thinSolution(v, x, *solutions[static_cast<std::size_t>(n.a)], i, cur);
-            break;
-          default:
-            break;
-        }
+        thinOrder(v, x, solutions, i, cur);
       }
     }
-    for (int x = 0; x < count; ++x) {
-      const ThinNode& n = v[x];
-      if (n.invariant) continue;
-      n.forward[i] = cur[x];
-      n.forward[i + 1] = 0;
-      if (n.reversed != nullptr) {
-        n.reversed[-i] = cur[x];
-        n.reversed[-i - 1] = 0;
-      }
-      if (n.derivative != nullptr) {
-        n.derivative[i] = i * cur[x];
-        n.derivative[i + 1] = 0;
-      }
-    }
+    storeThin(v, count, i, cur);
     // The next order of the frame first: it reads this order's values of the states' derivatives' nodes only.
     for (const ThinSum& row : frame) {
       double s = 0;

@@ -138,9 +138,7 @@ void PolynomialSeries::computeOrder(int node, int i) {
   }
   const Plan& a = plan_[at(v.a)];
   const double* fa = &f_[a.f];
-  const int N = countOf(v, i), before = i > 0 ? countOf(a, i - 1) : a.count;
-  const auto* pairs = monomials_->pairs().data();
-  const auto* first = monomials_->first().data();
+  const int N = countOf(v, i);
   double* out = scratch_.data();
   switch (v.op) {
     case Op::add: {
@@ -170,76 +168,81 @@ void PolynomialSeries::computeOrder(int node, int i) {
       product(a, plan_[at(v.op == Op::sqr ? v.a : v.b)], N, i, out);
       for (int g = 0; g < N; ++g) put(v, g, i, out[g]);
       return;
+    case Op::exp:
+    case Op::sin:
+    case Op::tanh:
+      return i == 0 ? initialFunctionRow(node) : computeFunctionOrder(node, i);
     default:
-      break;
+      return i == 0 ? initialRow(node) : computeQuotientOrder(node, i);
   }
-  if (i == 0) return initialRow(node);
-  std::fill(out, out + N, 0.0);
-  // The order that is being computed counts as zero in the sums below.
-  for (int g = 0; g < N; ++g) put(v, g, i, 0.0);
+}
+
+/// out = Σ_j left_j right_{i-j} over stored orders.
+void PolynomialSeries::convolveOrder(const double* left, const Plan& right, int count, int i, double* out) {
+  std::fill(out, out + count, 0.0);
+  kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), count, left, &r_[right.r], stride_, i, out);
+}
+
+/// j·(order j) of a node, that of order i anew.
+const double* PolynomialSeries::putSlope(const Plan& v, int i) {
+  for (int g = 0; g < countOf(v, i - 1); ++g) d_[v.d + at(g * stride_ + i)] = i * f_[v.f + at(g * stride_ + i)];
+  return &d_[v.d];
+}
+
+/// Order i > 0 of what is a quotient by a leading polynomial.
+void PolynomialSeries::computeQuotientOrder(int node, int i) {
+  const Plan& v = plan_[at(node)];
+  const double* fa = &f_[plan_[at(v.a)].f];
+  const int N = countOf(v, i);
+  const bool isOfSlopes = v.op == Op::log || v.op == Op::atan;
+  double *out = scratch_.data(), *quotient = scratch2_.data();
+  for (int g = 0; g < N; ++g) put(v, g, i, 0.0);  // counts as zero in the sums
+  for (int g = 0; g < N && isOfSlopes; ++g) d_[v.d + at(g * stride_ + i)] = 0.0;
+  if (v.op == Op::recip) {  // c_i = -(Σ_{j<i} c_j b_{i-j}) / b_0
+    convolveOrder(&f_[v.f], plan_[at(v.a)], N, i, out);
+  } else if (v.op == Op::sqrt) {  // s_i = (b_i - Σ_{0<j<i} s_j s_{i-j}) / (2 s_0)
+    convolveOrder(&f_[v.f], v, N, i, out);
+    for (int g = 0; g < N; ++g) out[g] = 0.5 * (fa[g * stride_ + i] - out[g]);
+  } else {  // l_i = (u_i - Σ_{1≤j<i} j l_j w_{i-j} / i) / w_0
+    convolveOrder(&d_[v.d], plan_[at(v.b)], N, i, out);
+    for (int g = 0; g < N; ++g) out[g] = fa[g * stride_ + i] - out[g] / i;
+  }
+  std::fill(quotient, quotient + N, 0.0);
+  kernels::multiply(*monomials_, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
+  for (int g = 0; g < N; ++g) {
+    put(v, g, i, v.op == Op::recip ? -quotient[g] : quotient[g]);
+    if (isOfSlopes) d_[v.d + at(g * stride_ + i)] = i * quotient[g];
+  }
+}
+
+/// Order i > 0 of a function that obeys a differential equation.
+void PolynomialSeries::computeFunctionOrder(int node, int i) {
+  const Plan& v = plan_[at(node)];
+  const Plan& a = plan_[at(v.a)];
+  const int N = countOf(v, i);
+  double *out = scratch_.data(), *other = scratch2_.data();
+  const Plan& twin = plan_[at(v.op == Op::exp ? node : node + 1)];
+  for (int g = 0; g < N; ++g) {  // count as zero in the sums
+    put(v, g, i, 0.0);
+    put(twin, g, i, 0.0);
+  }
+  convolveOrder(putSlope(a, i), twin, N, i, out);
   switch (v.op) {
-    case Op::recip: {  // c_i = -(Σ_{j<i} c_j b_{i-j}) / b_0
-      kernels::convolve(pairs, first, N, &f_[v.f], &r_[a.r], stride_, i, out);
-      double* quotient = scratch2_.data();
-      std::fill(quotient, quotient + N, 0.0);
-      kernels::multiply(*monomials_, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
-      for (int g = 0; g < N; ++g) put(v, g, i, -quotient[g]);
-      return;
-    }
-    case Op::sqrt: {  // s_i = (b_i - Σ_{0<j<i} s_j s_{i-j}) / (2 s_0)
-      kernels::convolve(pairs, first, N, &f_[v.f], &r_[v.r], stride_, i, out);
-      for (int g = 0; g < N; ++g) out[g] = 0.5 * (fa[g * stride_ + i] - out[g]);
-      double* quotient = scratch2_.data();
-      std::fill(quotient, quotient + N, 0.0);
-      kernels::multiply(*monomials_, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
-      for (int g = 0; g < N; ++g) put(v, g, i, quotient[g]);
-      return;
-    }
-    case Op::exp: {  // e_i = Σ_{j≥1} j u_j e_{i-j} / i
-      for (int g = 0; g < before; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
-      kernels::convolve(pairs, first, N, &d_[a.d], &r_[v.r], stride_, i, out);
+    case Op::exp:  // e_i = Σ_{j≥1} j u_j e_{i-j} / i
       for (int g = 0; g < N; ++g) put(v, g, i, out[g] / i);
       return;
-    }
-    case Op::log:
-    case Op::atan: {  // l_i = (u_i - Σ_{1≤j<i} j l_j w_{i-j} / i) / w_0
-      for (int g = 0; g < N; ++g) d_[v.d + at(g * stride_ + i)] = 0.0;
-      kernels::convolve(pairs, first, N, &d_[v.d], &r_[plan_[at(v.b)].r], stride_, i, out);
-      for (int g = 0; g < N; ++g) out[g] = fa[g * stride_ + i] - out[g] / i;
-      double* quotient = scratch2_.data();
-      std::fill(quotient, quotient + N, 0.0);
-      kernels::multiply(*monomials_, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
-      for (int g = 0; g < N; ++g) {
-        put(v, g, i, quotient[g]);
-        d_[v.d + at(g * stride_ + i)] = i * quotient[g];
-      }
-      return;
-    }
-    case Op::sin: {  // s_i = Σ_{j≥1} j u_j c_{i-j} / i, c_i = -Σ_{j≥1} j u_j s_{i-j} / i
-      const Plan& c = plan_[at(node + 1)];
-      for (int g = 0; g < N; ++g) put(c, g, i, 0.0);
-      for (int g = 0; g < before; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
-      double* cosine = scratch2_.data();
-      std::fill(cosine, cosine + N, 0.0);
-      kernels::convolve(pairs, first, N, &d_[a.d], &r_[c.r], stride_, i, out);
-      kernels::convolve(pairs, first, N, &d_[a.d], &r_[v.r], stride_, i, cosine);
+    case Op::sin:  // s_i = Σ_{j≥1} j u_j c_{i-j} / i, c_i = -Σ_{j≥1} j u_j s_{i-j} / i
+      convolveOrder(&d_[a.d], v, N, i, other);
       for (int g = 0; g < N; ++g) {
         put(v, g, i, out[g] / i);
-        put(c, g, i, -cosine[g] / i);
+        put(twin, g, i, -other[g] / i);
       }
       return;
-    }
-    case Op::tanh: {  // t_i = Σ_{j≥1} j u_j s_{i-j} / i, s_i = -Σ t_j t_{i-j}
-      const Plan& s = plan_[at(node + 1)];
-      for (int g = 0; g < N; ++g) put(s, g, i, 0.0);
-      for (int g = 0; g < before; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
-      kernels::convolve(pairs, first, N, &d_[a.d], &r_[s.r], stride_, i, out);
+    case Op::tanh:  // t_i = Σ_{j≥1} j u_j s_{i-j} / i, s_i = -Σ t_j t_{i-j}
       for (int g = 0; g < N; ++g) put(v, g, i, out[g] / i);
-      std::fill(out, out + N, 0.0);
-      kernels::convolve(pairs, first, N, &f_[v.f], &r_[v.r], stride_, i, out);
-      for (int g = 0; g < N; ++g) put(s, g, i, -out[g]);
+      convolveOrder(&f_[v.f], v, N, i, out);
+      for (int g = 0; g < N; ++g) put(twin, g, i, -out[g]);
       return;
-    }
     default:
       return;
   }
@@ -288,106 +291,77 @@ void PolynomialSeries::pointFunctions(int node) {
   }
 }
 
+/// Σ term(p, r) over all pairs of monomials with product g, but for p = 1.
+template <class Term>
+double PolynomialSeries::sumOverPairs(int g, const Term& term) const {
+  double sum = 0;
+  for (auto q = monomials_->first()[at(g)]; q < monomials_->first()[at(g) + 1]; ++q)
+    if (const auto [p, r] = monomials_->pairs()[at(q)]; p != 0) sum += term(p, r);
+  return sum;
+}
+
+/// 1 / leading polynomial, truncated: inv_0 = 1/b_0, inv_g = -Σ_{α≠0} b_α inv_{g/α} / b_0.
+const double* PolynomialSeries::invertLeading(int node, const Plan& b) {
+  double* inverse = &inverse_[inverseAt_[at(node)]];
+  inverse[0] = 1.0 / f_[b.f];
+  for (int g = 1; g < plan_[at(node)].count; ++g)
+    inverse[g] = -sumOverPairs(g, [&](int p, int r) { return f_[b.f + at(p * stride_)] * inverse[r]; }) * inverse[0];
+  return inverse;
+}
+
 /// Order 0 in time: the recursion in the grade of ξ (the path ξ → λ^weight ξ plays the part of time).
 void PolynomialSeries::initialRow(int node) {
   const Plan& v = plan_[at(node)];
   const Plan& a = plan_[at(v.a)];
-  const int N = v.count;
-  const auto& pairs = monomials_->pairs();
-  const auto& first = monomials_->first();
   const auto coefficient = [&](const Plan& of, int g) { return f_[of.f + at(g * stride_)]; };
-  const auto grade = [&](int g) { return monomials_->grade(g); };
-  // 1 / leading polynomial, truncated: inv_0 = 1/b_0, inv_g = -Σ_{α≠0} b_α inv_{g/α} / b_0.
-  const auto invert = [&](const Plan& b) {
-    double* inverse = &inverse_[inverseAt_[at(node)]];
-    inverse[0] = 1.0 / coefficient(b, 0);
-    for (int g = 1; g < N; ++g) {
-      double s = 0;
-      for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
-        if (pairs[at(q)].a != 0) s += coefficient(b, pairs[at(q)].a) * inverse[pairs[at(q)].b];
-      inverse[g] = -s * inverse[0];
+  if (v.op == Op::recip) {
+    const double* inverse = invertLeading(node, a);
+    for (int g = 0; g < v.count; ++g) put(v, g, 0, inverse[g]);
+  } else if (v.op == Op::sqrt) {
+    const double root = std::sqrt(coefficient(a, 0));
+    put(v, 0, 0, root);
+    for (int g = 1; g < v.count; ++g) {
+      const double s =
+          sumOverPairs(g, [&](int p, int r) { return r == 0 ? 0.0 : coefficient(v, p) * coefficient(v, r); });
+      put(v, g, 0, (coefficient(a, g) - s) / (2 * root));
     }
-    return inverse;
-  };
-  switch (v.op) {
-    case Op::recip: {
-      const double* inverse = invert(a);
-      for (int g = 0; g < N; ++g) put(v, g, 0, inverse[g]);
-      return;
+    invertLeading(node, v);
+  } else {  // log, atan
+    const Plan& w = plan_[at(v.b)];
+    pointFunctions(node);
+    const double w0 = coefficient(w, 0);
+    for (int g = 1; g < v.count; ++g) {
+      const double s = sumOverPairs(
+          g, [&](int p, int r) { return r == 0 ? 0.0 : monomials_->grade(p) * coefficient(v, p) * coefficient(w, r); });
+      put(v, g, 0, (coefficient(a, g) - s / monomials_->grade(g)) / w0);
     }
-    case Op::sqrt: {
-      const double root = std::sqrt(coefficient(a, 0));
-      put(v, 0, 0, root);
-      for (int g = 1; g < N; ++g) {
-        double s = 0;
-        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
-          if (pairs[at(q)].a != 0 && pairs[at(q)].b != 0)
-            s += coefficient(v, pairs[at(q)].a) * coefficient(v, pairs[at(q)].b);
-        put(v, g, 0, (coefficient(a, g) - s) / (2 * root));
+    for (int g = 0; g < v.count; ++g) d_[v.d + at(g * stride_)] = 0.0;
+    invertLeading(node, w);
+  }
+}
+
+/// Likewise of exp, and of sin and tanh with their twins.
+void PolynomialSeries::initialFunctionRow(int node) {
+  const Plan& v = plan_[at(node)];
+  const Plan& a = plan_[at(v.a)];
+  const Plan& twin = plan_[at(v.op == Op::exp ? node : node + 1)];
+  pointFunctions(node);
+  for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_)] = 0.0;
+  for (int g = 1; g < v.count; ++g) {
+    const double* f = &f_[0];
+    double s = 0, t = 0;
+    for (auto q = monomials_->first()[at(g)]; q < monomials_->first()[at(g) + 1]; ++q)
+      if (const auto [p, r] = monomials_->pairs()[at(q)]; p != 0) {
+        const double slope = monomials_->grade(p) * f[a.f + at(p * stride_)];
+        s += slope * f[twin.f + at(r * stride_)];
+        if (v.op == Op::sin) t += slope * f[v.f + at(r * stride_)];
       }
-      invert(v);
-      return;
-    }
-    case Op::exp: {
-      pointFunctions(node);
-      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_)] = 0.0;
-      for (int g = 1; g < N; ++g) {
-        double s = 0;
-        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
-          if (const auto [p, r] = pairs[at(q)]; p != 0) s += grade(p) * coefficient(a, p) * coefficient(v, r);
-        put(v, g, 0, s / grade(g));
-      }
-      return;
-    }
-    case Op::log:
-    case Op::atan: {
-      const Plan& w = plan_[at(v.b)];
-      pointFunctions(node);
-      const double w0 = coefficient(w, 0);
-      for (int g = 1; g < N; ++g) {
-        double s = 0;
-        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
-          if (const auto [p, r] = pairs[at(q)]; p != 0 && r != 0) s += grade(p) * coefficient(v, p) * coefficient(w, r);
-        put(v, g, 0, (coefficient(a, g) - s / grade(g)) / w0);
-      }
-      for (int g = 0; g < N; ++g) d_[v.d + at(g * stride_)] = 0.0;
-      invert(w);
-      return;
-    }
-    case Op::sin: {
-      const Plan& c = plan_[at(node + 1)];
-      pointFunctions(node);
-      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_)] = 0.0;
-      for (int g = 1; g < N; ++g) {
-        double s = 0, t = 0;
-        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
-          if (const auto [p, r] = pairs[at(q)]; p != 0) {
-            const double du = grade(p) * coefficient(a, p);
-            s += du * coefficient(c, r);
-            t += du * coefficient(v, r);
-          }
-        put(v, g, 0, s / grade(g));
-        put(c, g, 0, -t / grade(g));
-      }
-      return;
-    }
-    case Op::tanh: {
-      const Plan& c = plan_[at(node + 1)];
-      pointFunctions(node);
-      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_)] = 0.0;
-      for (int g = 1; g < N; ++g) {
-        double s = 0, t = 0;
-        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
-          if (const auto [p, r] = pairs[at(q)]; p != 0) s += grade(p) * coefficient(a, p) * coefficient(c, r);
-        put(v, g, 0, s / grade(g));
-        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
-          t += coefficient(v, pairs[at(q)].a) * coefficient(v, pairs[at(q)].b);
-        put(c, g, 0, -t);
-      }
-      return;
-    }
-    default:
-      return;
+    put(v, g, 0, s / monomials_->grade(g));
+    if (v.op == Op::sin) put(twin, g, 0, -t / monomials_->grade(g));
+    if (v.op != Op::tanh) continue;
+    for (auto q = monomials_->first()[at(g)]; q < monomials_->first()[at(g) + 1]; ++q)
+      t += f[v.f + at(monomials_->pairs()[at(q)].a * stride_)] * f[v.f + at(monomials_->pairs()[at(q)].b * stride_)];
+    put(twin, g, 0, -t);
   }
 }
 

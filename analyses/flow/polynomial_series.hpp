@@ -253,12 +253,17 @@ class PolynomialSeries {
   double orderNorm(const Plan& v, int i) const;
   double derivativeNorm(const Plan& v, int k, double theta) const;
   void computeOrder(int node, int i);
+  void computeQuotientOrder(int node, int i);
+  void computeFunctionOrder(int node, int i);
+  void convolveOrder(const double* left, const Plan& right, int count, int i, double* out);
+  const double* putSlope(const Plan& v, int i);
   void product(const Plan& a, const Plan& b, int count, int i, double* out);
   void computeFrameOrder(int i, double h0);
   void prepareThin();
   void computeLeadingValue(int node);
 
   // polynomial_series_grades.cpp
+  void planProducts();
   void planGrades();
   void computeByGrades(double h0);
   void computeLeadingGrade(double h0);
@@ -266,6 +271,7 @@ class PolynomialSeries {
   void multiplyGrade(int q);
   void computeLanes(int q, int first, int count, double h0);
   void computeLane(int node, int i, int q);
+  void computeFunctionLane(int node, int i, int q);
   void computeSolutionLanes(int first, int i);
   void computeFrameLanes(int i, double h0);
   double* lane(int node, int i) { return &lanes_[at((node * stride_ + i) * kernels::lanes)]; }
@@ -278,10 +284,20 @@ class PolynomialSeries {
   double coarseProduct(int a, int b, int from) const;
   double productRounding(int node, int a, int b, int from, double coarse) const;
   void pointFunctions(int node);
+  template <class Term>
+  double sumOverPairs(int g, const Term& term) const;
+  const double* invertLeading(int node, const Plan& b);
   void initialRow(int node);
+  void initialFunctionRow(int node);
+  bool tabulateNorms(std::size_t x, double last);
+  void tabulateTails(std::size_t x);
   double tailTime(int a, int b) const;
   double tailDegree(int a, int b, int degree, int fromOrder) const;
   double tailRow(int a, int b, int degree) const;
+  double sumRounding(int node) const;
+  void productErrors(int node, int a, int b, double& e0, double& e1) const;
+  void sineErrors(int node, double& e0, double& e1);
+  void tanhErrors(int node, double& e0, double& e1);
   void ownErrors(int node);
   void differentialErrors(int u, int of, int degree, double& e0, double& e1) const;
   template <class Term>
@@ -290,7 +306,19 @@ class PolynomialSeries {
   double quotientResidual(int node);
   double dropped(int a, int degree) const;
   double minimum(int node) const;
+  /// ρ0 and ρ1 of a node; of operands, as one sees them that knows their second doubles, or does not.
+  struct Errors {
+    double e0 = 0, e1 = 0;
+  };
+  struct Operands {
+    const PolynomialSeries& of;
+    bool seesLow;
+    double r0(int i) const { return of.rho0_[at(i)] + (seesLow ? 0.0 : of.lowOf(i)); }
+    double r1(int i) const { return of.rho1_[at(i)]; }
+    double r(int i) const { return r0(i) + r1(i); }
+  };
   bool boundNode(int node);
+  bool boundFunction(int node, const Operands& of, Errors& z) const;
   void boundTanh(int node);
   void boundAbs(int node);
   void boundSign(int node);
@@ -316,12 +344,16 @@ class PolynomialSeries {
   }
   void tabulateSystem(System& system);
   void solutionOwnErrors(int first);
+  double contraction(const System& system);
   bool boundSystem(System& system);
   bool boundSolution(int first);
   bool refuse(int node);
   std::string edgeOf(int node) const;
 
+  std::vector<char> primaryOf(const Program& program, int primaryOutputs) const;
   void planOrders(int order);
+  void planNodes(const Program& program, const std::vector<char>& primary);
+  void planFactors();
   void putConstants();
 
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;

@@ -13,12 +13,8 @@ namespace gamut {
 
 bool PolynomialSeries::boundNode(int node) {
   const Plan& v = plan_[at(node)];
-  const bool seesLow = isFine(node);
-  const auto r0 = [&](int i) { return rho0_[at(i)] + (seesLow ? 0.0 : lowOf(i)); };
-  const auto r1 = [&](int i) { return rho1_[at(i)]; };
-  const auto r = [&](int i) { return r0(i) + rho1_[at(i)]; };
-  const double own0 = own0_[at(node)], own1 = own1_[at(node)];
-  double z0 = 0, z1 = 0;
+  const Operands of{*this, isFine(node)};
+  Errors z;
   switch (v.op) {
     case Op::state:
     case Op::parameter:
@@ -38,72 +34,74 @@ bool PolynomialSeries::boundNode(int node) {
     case Op::add:
     case Op::sub:
       if (norm_[at(node)] == 0 && isNothing(v)) break;
-      z0 = r0(v.a) + r0(v.b) + own0;
-      z1 = r1(v.a) + r1(v.b);
+      z = {of.r0(v.a) + of.r0(v.b) + own0_[at(node)], of.r1(v.a) + of.r1(v.b)};
       break;
     case Op::neg:
-      z0 = r0(v.a) + own0;
-      z1 = r1(v.a);
+      z = {of.r0(v.a) + own0_[at(node)], of.r1(v.a)};
       break;
     case Op::mul:
     case Op::sqr: {  // ab - ãb̃ = ã δb + b̃ δa + δa δb
       const int b = v.op == Op::sqr ? v.a : v.b;
-      z0 = norm_[at(v.a)] * r0(b) + norm_[at(b)] * r0(v.a) + r(v.a) * r(b) + own0;
-      z1 = norm_[at(v.a)] * r1(b) + norm_[at(b)] * r1(v.a) + own1;
-      break;
-    }
-    case Op::recip: {  // |1 - c̃b| ≤ η < 1 proves b ≠ 0, and |1/b - c̃| = |1 - c̃b|/|b| ≤ η‖c̃‖/(1-η)
-      const double eta0 = own0 + norm_[at(node)] * r0(v.a), eta1 = own1 + norm_[at(node)] * r1(v.a);
-      const double eta = (eta0 + eta1) * bounds::up;
-      if (!(eta < 0.99)) return false;
-      const double factor = norm_[at(node)] / (1 - eta);
-      z0 = eta0 * factor;
-      z1 = eta1 * factor;
-      break;
-    }
-    case Op::sqrt: {  // |√b - s̃| = |b - s̃²|/(√b + s̃)
-      const double bMin = minimum(v.a) - r(v.a) * bounds::up, sMin = minimum(node);
-      if (!(bMin > 0 && sMin > 0)) return false;
-      const double below = (sMin + std::sqrt(bMin)) * bounds::down;
-      z0 = (own0 + r0(v.a)) / below;
-      z1 = (own1 + r1(v.a)) / below;
-      break;
-    }
-    case Op::exp: {
-      // ẽ' = ũ'ẽ + defect grows by at most e^{osc}, osc ≤ 2 Σ_{(i,α)≠0}|u_{iα}|θ^i; e^{u} - e^{ũ}: (e^ρ-1) ≤ e^ρ ρ.
-      const double way = rest(v.a);
-      if (!(way < 300 && r(v.a) < 300)) return false;
-      const double growth = exp(Interval(2 * way * bounds::up)).upper();
-      const double tilt = (norm_[at(node)] + (own0 + own1) * growth) * exp(Interval(r(v.a) * bounds::up)).upper();
-      z0 = own0 * growth + tilt * r0(v.a);
-      z1 = own1 * growth + tilt * r1(v.a);
-      break;
-    }
-    case Op::log: {  // defect over min|ũ|, and |log u - log ũ| ≤ ρ_u / min|u|
-      const double below = (minimum(v.a) - r(v.a) * bounds::up) * bounds::down;
-      if (!(below > 0)) return false;
-      z0 = pointError_[at(node)] + (own0 + r0(v.a)) / below;
-      z1 = (own1 + r1(v.a)) / below;
-      break;
-    }
-    case Op::atan: {  // 1 + ũ² ≥ 1; w̃ is off 1 + ũ² by its own bound and by u² - ũ²; |atan u - atan ũ| ≤ ρ_u
-      const double offW = r(v.b) + (2 * norm_[at(v.a)] + r(v.a)) * r(v.a);
-      z0 = pointError_[at(node)] + own0 + norm_[at(node)] * offW + r0(v.a);
-      z1 = own1 + r1(v.a);
+      z = {norm_[at(v.a)] * of.r0(b) + norm_[at(b)] * of.r0(v.a) + of.r(v.a) * of.r(b) + own0_[at(node)],
+           norm_[at(v.a)] * of.r1(b) + norm_[at(b)] * of.r1(v.a) + own1_[at(node)]};
       break;
     }
     case Op::sin:
     case Op::cos:
-      z0 = own0 + r0(v.a);
-      z1 = own1 + r1(v.a);
+      z = {own0_[at(node)] + of.r0(v.a), own1_[at(node)] + of.r1(v.a)};
       break;
     case Op::tanh:
       boundTanh(node);
       return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
+    default:
+      if (!boundFunction(node, of, z)) return false;
   }
-  rho0_[at(node)] = z0 * bounds::up + bounds::tiny;
-  rho1_[at(node)] = z1 * bounds::up;
+  rho0_[at(node)] = z.e0 * bounds::up + bounds::tiny;
+  rho1_[at(node)] = z.e1 * bounds::up;
   return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
+}
+
+/// Of those that have an edge to their domain, or that grow.
+bool PolynomialSeries::boundFunction(int node, const Operands& of, Errors& z) const {
+  const Plan& v = plan_[at(node)];
+  const double own0 = own0_[at(node)], own1 = own1_[at(node)], r = of.r(v.a);
+  switch (v.op) {
+    case Op::recip: {  // |1 - c̃b| ≤ η < 1 proves b ≠ 0, and |1/b - c̃| = |1 - c̃b|/|b| ≤ η‖c̃‖/(1-η)
+      const double eta0 = own0 + norm_[at(node)] * of.r0(v.a), eta1 = own1 + norm_[at(node)] * of.r1(v.a);
+      const double eta = (eta0 + eta1) * bounds::up;
+      if (!(eta < 0.99)) return false;
+      const double factor = norm_[at(node)] / (1 - eta);
+      z = {eta0 * factor, eta1 * factor};
+      return true;
+    }
+    case Op::sqrt: {  // |√b - s̃| = |b - s̃²|/(√b + s̃)
+      const double bMin = minimum(v.a) - r * bounds::up, sMin = minimum(node);
+      if (!(bMin > 0 && sMin > 0)) return false;
+      const double below = (sMin + std::sqrt(bMin)) * bounds::down;
+      z = {(own0 + of.r0(v.a)) / below, (own1 + of.r1(v.a)) / below};
+      return true;
+    }
+    case Op::exp: {
+      // ẽ' = ũ'ẽ + defect grows by at most e^{osc}, osc ≤ 2 Σ_{(i,α)≠0}|u_{iα}|θ^i; e^{u} - e^{ũ}: (e^ρ-1) ≤ e^ρ ρ.
+      const double way = rest(v.a);
+      if (!(way < 300 && r < 300)) return false;
+      const double growth = exp(Interval(2 * way * bounds::up)).upper();
+      const double tilt = (norm_[at(node)] + (own0 + own1) * growth) * exp(Interval(r * bounds::up)).upper();
+      z = {own0 * growth + tilt * of.r0(v.a), own1 * growth + tilt * of.r1(v.a)};
+      return true;
+    }
+    case Op::log: {  // defect over min|ũ|, and |log u - log ũ| ≤ ρ_u / min|u|
+      const double below = (minimum(v.a) - r * bounds::up) * bounds::down;
+      if (!(below > 0)) return false;
+      z = {pointError_[at(node)] + (own0 + of.r0(v.a)) / below, (own1 + of.r1(v.a)) / below};
+      return true;
+    }
+    default: {  // atan: 1 + ũ² ≥ 1; w̃ is off 1 + ũ² by its own bound and by u² - ũ²; |atan u - atan ũ| ≤ ρ_u
+      const double offW = of.r(v.b) + (2 * norm_[at(v.a)] + r) * r;
+      z = {pointError_[at(node)] + own0 + norm_[at(node)] * offW + of.r0(v.a), own1 + of.r1(v.a)};
+      return true;
+    }
+  }
 }
 
 /// tanh and sech² of u. T = tanh ũ and t̂ = t̃ + tanh u_00 - t_00 are equal where the path of rest() begins; from there
@@ -253,12 +251,11 @@ int PolynomialSeries::symbolAcross() const {
   for (std::size_t u = 0; u < crossing_.size(); ++u) {
     if (!(crossing_[u] > 0)) continue;
     const Plan& v = plan_[u];
-    for (int l = 0; l < monomials_->symbols(); ++l) {
-      double mass = 0;
-      for (int g = 1; g < v.count; ++g)
-        if (monomials_->exponent(g, l) > 0) mass += std::fabs(f_[v.f + at(g * stride_)]);
-      if (mass /= crossing_[u]; mass > most && mass * crossing_[u] > 4 * atStart_[u]) most = mass, symbol = l;
-    }
+    std::vector<double> mass(at(monomials_->symbols()), 0.0);
+    for (int g = 1; g < v.count; ++g) monomials_->addMass(g, std::fabs(f_[v.f + at(g * stride_)]), mass);
+    for (std::size_t l = 0; l < mass.size(); ++l)
+      if (const double share = mass[l] / crossing_[u]; share > most && share * crossing_[u] > 4 * atStart_[u])
+        most = share, symbol = static_cast<int>(l);
   }
   return symbol;
 }

@@ -22,60 +22,8 @@ bool PolynomialSeries::tabulate(double theta) {
   Work::count(Work::coefficient, static_cast<double>((isByGrades_ ? 0 : f_.size()) + t_.size() + s2_.size()));
   Work::count(Work::boundedNode, static_cast<double>(plan_.size()));
   for (std::size_t x = 0; x < plan_.size(); ++x) {
-    const Plan& v = plan_[x];
-    double* table = &t_[v.t];
-    if (isByGrades_) {
-      for (int q = 0; q <= v.degree; ++q)
-        for (int i = 0; i < stride_; ++i) table[q * stride_ + i] = sums_[v.t + at(q * stride_ + i)] * power_[at(i)];
-      norm_[x] = std::accumulate(table, table + (v.degree + 1) * stride_, 0.0);
-      weighted_[x] = kernels::dot(&weightedSums_[x * at(stride_)], weights_.data(), stride_);
-    } else {
-      kernels::tabulate(*monomials_, v.count, &f_[v.f], power_.data(), weights_.data(), stride_, table, norm_[x],
-                        weighted_[x]);
-    }
-    norm_[x] *= bounds::up;
-    weighted_[x] *= bounds::up;
-    if (!(norm_[x] < bounds::largest)) return refuse(static_cast<int>(x));  // for NaN too
-    double* total = &total_[x * at(stride_)];
-    std::fill(total, total + stride_, 0.0);
-    for (int q = 0; q <= v.degree; ++q)
-      for (int i = 0; i < stride_; ++i) total[i] += table[q * stride_ + i];
-    for (int i = 0; i < fine_.orders() && isFine(static_cast<int>(x)); ++i) {
-      const FineRecursion::Number& c = fine_.value(static_cast<int>(x), i);
-      if (!(std::fabs(c.lo) <= bounds::unit * std::fabs(c.hi))) return refuse(static_cast<int>(x));
-    }
-    if (v.op == Op::state) {
-      const double sum = orderNorm(v, m_);
-      top_[x] = withFrame_ ? sum * last * bounds::up : 0.0;
-      if (!(top_[x] < bounds::largest)) return refuse(static_cast<int>(x));
-    }
-    if (!v.needsTails) continue;
-    // s1[i] = Σ_{j ≥ m-i} total[j];  s2[q][i] = Σ_{p ≥ q} Σ_{j ≤ m-1-i} T[p][j].
-    double* s1 = &s1_[x * at(stride_)];
-    std::fill(s1, s1 + stride_, 0.0);
-    for (int i = 1; i < m_; ++i) s1[i] = s1[i - 1] + total[m_ - i];
-    if (monomials_->degree() == 0) continue;
-    double* s2 = &s2_[v.s2];
-    std::fill(s2 + (v.degree + 1) * stride_, s2 + (v.degree + 2) * stride_, 0.0);
-    for (int q = v.degree; q >= 0; --q) {
-      double* row = s2 + q * stride_;
-      std::fill(row, row + stride_, 0.0);
-      double sum = 0;
-      for (int i = m_ - 1; i >= 0; --i) row[i] = (sum += table[q * stride_ + m_ - 1 - i]);
-      for (int i = 0; i < m_; ++i) row[i] += row[stride_ + i];
-    }
-    if (v.beyond == none) continue;
-    // from[q][j] = Σ_{p ≥ q} T[p][j];  beyond[p][i] = Σ_{j ≤ m-1-i} from[G_{i+j} + 1 - p][j].
-    std::vector<double>& from = from_;
-    from.assign(at((v.degree + 2) * stride_), 0.0);
-    for (int q = v.degree; q >= 0; --q)
-      for (int j = 0; j < m_; ++j) from[at(q * stride_ + j)] = from[at((q + 1) * stride_ + j)] + table[q * stride_ + j];
-    for (int p = 0; p <= v.degree; ++p)
-      for (int i = 0; i < m_; ++i) {
-        double sum = 0;
-        for (int j = 0; i + j < m_; ++j) sum += from[at(std::max(0, gradeOf(i + j) + 1 - p) * stride_ + j)];
-        beyond_[v.beyond + at(p * stride_ + i)] = sum;
-      }
+    if (!tabulateNorms(x, last)) return refuse(static_cast<int>(x));
+    if (plan_[x].needsTails) tabulateTails(x);
   }
   for (System& system : systems_) {
     goOnUnlessCancelled();
@@ -86,6 +34,67 @@ bool PolynomialSeries::tabulate(double theta) {
     ownErrors(x);
   }
   return true;
+}
+
+/// T, ‖·‖, ‖·‖_w and what an order has in all grades; of a state its last order. `last`: θ^m.
+bool PolynomialSeries::tabulateNorms(std::size_t x, double last) {
+  const Plan& v = plan_[x];
+  double* table = &t_[v.t];
+  if (isByGrades_) {
+    for (int q = 0; q <= v.degree; ++q)
+      for (int i = 0; i < stride_; ++i) table[q * stride_ + i] = sums_[v.t + at(q * stride_ + i)] * power_[at(i)];
+    norm_[x] = std::accumulate(table, table + (v.degree + 1) * stride_, 0.0);
+    weighted_[x] = kernels::dot(&weightedSums_[x * at(stride_)], weights_.data(), stride_);
+  } else {
+    kernels::tabulate(*monomials_, v.count, &f_[v.f], power_.data(), weights_.data(), stride_, table, norm_[x],
+                      weighted_[x]);
+  }
+  norm_[x] *= bounds::up;
+  weighted_[x] *= bounds::up;
+  if (!(norm_[x] < bounds::largest)) return false;  // for NaN too
+  double* total = &total_[x * at(stride_)];
+  std::fill(total, total + stride_, 0.0);
+  for (int q = 0; q <= v.degree; ++q)
+    for (int i = 0; i < stride_; ++i) total[i] += table[q * stride_ + i];
+  for (int i = 0; i < fine_.orders() && isFine(static_cast<int>(x)); ++i) {
+    const FineRecursion::Number& c = fine_.value(static_cast<int>(x), i);
+    if (!(std::fabs(c.lo) <= bounds::unit * std::fabs(c.hi))) return false;
+  }
+  if (v.op != Op::state) return true;
+  const double sum = orderNorm(v, m_);
+  top_[x] = withFrame_ ? sum * last * bounds::up : 0.0;
+  return top_[x] < bounds::largest;
+}
+
+/// s1[i] = Σ_{j ≥ m-i} total[j];  s2[q][i] = Σ_{p ≥ q} Σ_{j ≤ m-1-i} T[p][j];  with from[q][j] = Σ_{p ≥ q} T[p][j],
+/// beyond[p][i] = Σ_{j ≤ m-1-i} from[G_{i+j} + 1 - p][j].
+void PolynomialSeries::tabulateTails(std::size_t x) {
+  const Plan& v = plan_[x];
+  const double *table = &t_[v.t], *total = &total_[x * at(stride_)];
+  double* s1 = &s1_[x * at(stride_)];
+  std::fill(s1, s1 + stride_, 0.0);
+  for (int i = 1; i < m_; ++i) s1[i] = s1[i - 1] + total[m_ - i];
+  if (monomials_->degree() == 0) return;
+  double* s2 = &s2_[v.s2];
+  std::fill(s2 + (v.degree + 1) * stride_, s2 + (v.degree + 2) * stride_, 0.0);
+  for (int q = v.degree; q >= 0; --q) {
+    double* row = s2 + q * stride_;
+    std::fill(row, row + stride_, 0.0);
+    double sum = 0;
+    for (int i = m_ - 1; i >= 0; --i) row[i] = (sum += table[q * stride_ + m_ - 1 - i]);
+    for (int i = 0; i < m_; ++i) row[i] += row[stride_ + i];
+  }
+  if (v.beyond == none) return;
+  std::vector<double>& from = from_;
+  from.assign(at((v.degree + 2) * stride_), 0.0);
+  for (int q = v.degree; q >= 0; --q)
+    for (int j = 0; j < m_; ++j) from[at(q * stride_ + j)] = from[at((q + 1) * stride_ + j)] + table[q * stride_ + j];
+  for (int p = 0; p <= v.degree; ++p)
+    for (int i = 0; i < m_; ++i) {
+      double sum = 0;
+      for (int j = 0; i + j < m_; ++j) sum += from[at(std::max(0, gradeOf(i + j) + 1 - p) * stride_ + j)];
+      beyond_[v.beyond + at(p * stride_ + i)] = sum;
+    }
 }
 
 bool PolynomialSeries::reachesHighestGrades(double share) const {
@@ -327,6 +336,54 @@ double PolynomialSeries::quotientResidual(int node) {
   return sum + 6 * bounds::unit * (weighted_[at(l.a)] + weighted_[at(node)] * weighted_[at(l.b)]);
 }
 
+/// One rounding a coefficient.
+double PolynomialSeries::sumRounding(int node) const {
+  const Plan& v = plan_[at(node)];
+  return isFine(node)
+             ? bounds::fine * (norm_[at(v.a)] + norm_[at(v.b)]) + bounds::unit * coarseNorm(node, fine_.orders())
+             : bounds::unit * norm_[at(node)];
+}
+
+/// A coefficient is a sum of N ≤ (i+1)∏(α_l+1) products in any order, fused or not: γ_N. A constant factor: one.
+void PolynomialSeries::productErrors(int node, int a, int b, double& e0, double& e1) const {
+  e0 = plan_[at(a)].constant && !isFine(node) ? bounds::unit * norm_[at(node)] : productRounding(node, a, b, 0, 3);
+  if (monomials_->degree() > 0) e0 += tailDegree(a, b, plan_[at(node)].degree, 0);
+  e1 = tailTime(a, b);
+}
+
+/// Sine, and of its cosine own0, own1: both from one skew system. The error's Euclidean norm grows by no more than both
+/// defects; what crosses from one to the other is turned by u', of which rest(u) is the integral.
+void PolynomialSeries::sineErrors(int node, double& e0, double& e1) {
+  const Plan& v = plan_[at(node)];
+  double c0 = 0, c1 = 0;
+  differentialErrors(v.a, node + 1, v.degree, e0, e1);
+  differentialErrors(v.a, node, v.degree, c0, c1);
+  e0 += pointError_[at(node)];
+  c0 += pointError_[at(node + 1)];
+  const double turned = rest(v.a), both0 = e0 + c0, both1 = e1 + c1;
+  e0 = std::min(both0, e0 + turned * both0);
+  e1 = std::min(both1, e1 + turned * both1);
+  own0_[at(node + 1)] = std::min(both0, c0 + turned * both0) * bounds::up + bounds::tiny;
+  own1_[at(node + 1)] = std::min(both1, c1 + turned * both1) * bounds::up;
+}
+
+/// tanh, and of its derivative by u own0, own1: κ = |s̃ - (1 - t̂²)|, t̂ = t̃ + tanh u_00 - t_00: the constants of both
+/// cancel but for their own errors, and the others are sums of N ≤ weights products, in which t_00 meets only what is
+/// not constant.
+void PolynomialSeries::tanhErrors(int node, double& e0, double& e1) {
+  const Plan& v = plan_[at(node)];
+  const double weighted = weightedRest(node);
+  const double kappa0 = pointError_[at(node + 1)] + 2 * pointError_[at(node)] * rest(node) +
+                        bounds::unit * weighted * (2 * leading(node) + weighted) +
+                        (monomials_->degree() > 0 ? tailDegree(node, node, v.degree, 0) : 0.0);
+  const double kappa1 = tailTime(node, node);
+  own0_[at(node + 1)] = kappa0 * bounds::up + bounds::tiny;
+  own1_[at(node + 1)] = kappa1 * bounds::up;
+  differentialErrors(v.a, node + 1, v.degree, e0, e1);
+  e0 += rest(v.a) * own0_[at(node + 1)];
+  e1 += rest(v.a) * own1_[at(node + 1)];
+}
+
 /// What a node adds to the errors of its operands.
 void PolynomialSeries::ownErrors(int node) {
   const Plan& v = plan_[at(node)];
@@ -345,14 +402,10 @@ void PolynomialSeries::ownErrors(int node) {
       if (v.b == 0) solutionOwnErrors(node);
       return;
     case Op::add:
-    case Op::sub:  // one rounding a coefficient; lower degree: what is dropped
-      e0 = (isFine(node)
-                ? bounds::fine * (norm_[at(v.a)] + norm_[at(v.b)]) + bounds::unit * coarseNorm(node, fine_.orders())
-                : bounds::unit * norm_[at(node)]) +
-           (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
+    case Op::sub:
+      e0 = sumRounding(node) + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
       break;
-    case Op::abs:
-      // A product and, of the constant, a sum.
+    case Op::abs:  // a product and, of the constant, a sum
       e0 = (chords_[at(node)].isExact() ? 0.0 : 2 * bounds::unit * (norm_[at(node)] + norm_[at(v.a)])) +
            (graded ? dropped(v.a, v.degree) : 0.0);
       break;
@@ -360,15 +413,9 @@ void PolynomialSeries::ownErrors(int node) {
       e0 = graded ? dropped(v.a, v.degree) : 0.0;
       break;
     case Op::mul:
-    case Op::sqr: {
-      const int b = v.op == Op::sqr ? v.a : v.b;
-      // A coefficient is a sum of N ≤ (i+1)∏(α_l+1) products in any order, fused or not: γ_N. A constant factor: one.
-      e0 = plan_[at(v.a)].constant && !isFine(node) ? bounds::unit * norm_[at(node)]
-                                                    : productRounding(node, v.a, b, 0, 3);
-      if (graded) e0 += tailDegree(v.a, b, v.degree, 0);
-      e1 = tailTime(v.a, b);
+    case Op::sqr:
+      productErrors(node, v.a, v.op == Op::sqr ? v.a : v.b, e0, e1);
       break;
-    }
     case Op::recip:
       e0 = productResidual(node, v.a, -1) + (graded ? tailDegree(node, v.a, v.degree, 0) : 0.0);
       e1 = tailTime(node, v.a);
@@ -388,36 +435,12 @@ void PolynomialSeries::ownErrors(int node) {
       if (graded) e0 += tailDegree(node, v.b, v.degree, 1) + tailRow(node, v.b, v.degree) + dropped(v.a, v.degree);
       e1 = tailTime(node, v.b);
       break;
-    case Op::sin: {
-      // Both from one skew system: the error's Euclidean norm grows by no more than both defects; what crosses from one
-      // to the other is turned by u', of which rest(u) is the integral.
-      double c0 = 0, c1 = 0;
-      differentialErrors(v.a, node + 1, v.degree, e0, e1);
-      differentialErrors(v.a, node, v.degree, c0, c1);
-      e0 += pointError_[at(node)];
-      c0 += pointError_[at(node + 1)];
-      const double turned = rest(v.a), both0 = e0 + c0, both1 = e1 + c1;
-      e0 = std::min(both0, e0 + turned * both0);
-      e1 = std::min(both1, e1 + turned * both1);
-      own0_[at(node + 1)] = std::min(both0, c0 + turned * both0) * bounds::up + bounds::tiny;
-      own1_[at(node + 1)] = std::min(both1, c1 + turned * both1) * bounds::up;
+    case Op::sin:
+      sineErrors(node, e0, e1);
       break;
-    }
-    case Op::tanh: {
-      // κ = |s̃ - (1 - t̂²)|, t̂ = t̃ + tanh u_00 - t_00: the constants of both cancel but for their own errors, and the
-      // others are sums of N ≤ weights products, in which t_00 meets only what is not constant.
-      const double weighted = weightedRest(node);
-      const double kappa0 = pointError_[at(node + 1)] + 2 * pointError_[at(node)] * rest(node) +
-                            bounds::unit * weighted * (2 * leading(node) + weighted) +
-                            (graded ? tailDegree(node, node, v.degree, 0) : 0.0);
-      const double kappa1 = tailTime(node, node);
-      own0_[at(node + 1)] = kappa0 * bounds::up + bounds::tiny;
-      own1_[at(node + 1)] = kappa1 * bounds::up;
-      differentialErrors(v.a, node + 1, v.degree, e0, e1);
-      e0 += rest(v.a) * own0_[at(node + 1)];
-      e1 += rest(v.a) * own1_[at(node + 1)];
+    case Op::tanh:
+      tanhErrors(node, e0, e1);
       break;
-    }
   }
   own0_[at(node)] = e0 * bounds::up + bounds::tiny;
   own1_[at(node)] = e1 * bounds::up;

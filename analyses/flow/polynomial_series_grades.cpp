@@ -13,8 +13,8 @@ namespace gamut {
 
 using kernels::lanes;
 
-/// Which products a node is made of, and which nodes are computed in each grade.
-void PolynomialSeries::planGrades() {
+/// Which products a node is made of.
+void PolynomialSeries::planProducts() {
   const auto add = [&](int left, int right, int target, bool isSlope = false) {
     if (targets_.empty() || targets_.back() != target) targets_.push_back(target);
     if (!plan_[at(left)].constant) products_.push_back({left, right, target, isSlope});
@@ -58,6 +58,11 @@ void PolynomialSeries::planGrades() {
         break;
     }
   }
+}
+
+/// Which nodes are computed in each grade, and where they lie.
+void PolynomialSeries::planGrades() {
+  planProducts();
   // What others read than a node's own sums.
   isKept_.assign(plan_.size(), 0);
   for (std::size_t x = 0; x < plan_.size(); ++x) {
@@ -227,6 +232,15 @@ void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
   }
 }
 
+namespace {
+
+template <class Value>
+void setLanes(double* to, const Value& value) {
+  for (int l = 0; l < lanes; ++l) to[l] = value(l);
+}
+
+}  // namespace
+
 /// Order i of a node, of the monomials in lanes: its place holds what products of lower grades make.
 void PolynomialSeries::computeLane(int node, int i, int q) {
   const Plan& v = plan_[at(node)];
@@ -236,11 +250,6 @@ void PolynomialSeries::computeLane(int node, int i, int q) {
     return;
   }
   const auto series = [&](int x) { return &f_[plan_[at(x)].f]; };  // of grade 0
-  const auto slope = [&](int x) { return &d_[plan_[at(x)].d]; };
-  const auto slopeLane = [&](int x) { return &slopes_[slopeAt_[at(x)]]; };
-  const auto set = [](double* to, auto&& value) {
-    for (int l = 0; l < lanes; ++l) to[l] = value(l);
-  };
   const Plan& a = plan_[at(v.a)];
   double* out = lane(node, i);
   const double* of = lane(v.a, i);
@@ -248,74 +257,89 @@ void PolynomialSeries::computeLane(int node, int i, int q) {
   switch (v.op) {
     case Op::add: {
       const double* other = lane(v.b, i);
-      return set(out, [&](int l) { return of[l] + other[l]; });
+      return setLanes(out, [&](int l) { return of[l] + other[l]; });
     }
     case Op::sub: {
       const double* other = lane(v.b, i);
-      return set(out, [&](int l) { return of[l] - other[l]; });
+      return setLanes(out, [&](int l) { return of[l] - other[l]; });
     }
     case Op::neg:
-      return set(out, [&](int l) { return -of[l]; });
+      return setLanes(out, [&](int l) { return -of[l]; });
     case Op::mul: {
       const double *left = series(v.a), *right = series(v.b), *other = lane(v.b, i);
-      if (a.constant) return set(out, [&](int l) { return left[0] * other[l]; });
+      if (a.constant) return setLanes(out, [&](int l) { return left[0] * other[l]; });
       const int orders = a.invariant ? 0 : i;
       kernels::convolveLanes(left, 0, orders, lane(v.b, 0), i, out);
       return kernels::convolveLanes(right, i - orders, i, lane(v.a, 0), i, out);
     }
     case Op::sqr:
       kernels::convolveLanes(series(v.a), 0, i, lane(v.a, 0), i, sum);
-      return set(out, [&](int l) { return out[l] + 2 * sum[l]; });
+      return setLanes(out, [&](int l) { return out[l] + 2 * sum[l]; });
     case Op::recip: {
       const double inverse = series(node)[0];
       kernels::convolveLanes(series(node), 0, i, lane(v.a, 0), i, out);
       kernels::convolveLanes(series(v.a), 1, i, lane(node, 0), i, out);
-      return set(out, [&](int l) { return -out[l] * inverse; });
+      return setLanes(out, [&](int l) { return -out[l] * inverse; });
     }
     case Op::sqrt: {
       const double half = 0.5 / series(node)[0];
       kernels::convolveLanes(series(node), 1, i, lane(node, 0), i, sum);
-      return set(out, [&](int l) { return (of[l] - out[l] - 2 * sum[l]) * half; });
+      return setLanes(out, [&](int l) { return (of[l] - out[l] - 2 * sum[l]) * half; });
     }
+    default:
+      return computeFunctionLane(node, i, q);
+  }
+}
+
+/// Likewise of a function that obeys a differential equation.
+void PolynomialSeries::computeFunctionLane(int node, int i, int q) {
+  const Plan& v = plan_[at(node)];
+  const auto series = [&](int x) { return &f_[plan_[at(x)].f]; };  // of grade 0
+  const auto slope = [&](int x) { return &d_[plan_[at(x)].d]; };
+  const auto slopeLane = [&](int x) { return &slopes_[slopeAt_[at(x)]]; };
+  double* out = lane(node, i);
+  const double* of = lane(v.a, i);
+  switch (v.op) {
     case Op::exp: {
-      if (i == 0) return set(out, [&](int l) { return out[l] / q + of[l] * series(node)[0]; });
+      if (i == 0) return setLanes(out, [&](int l) { return out[l] / q + of[l] * series(node)[0]; });
       kernels::convolveLanes(slope(v.a), 1, i, lane(node, 0), i, out);
       kernels::convolveLanes(series(node), 0, i - 1, slopeLane(v.a), i, out);
-      return set(out, [&](int l) { return out[l] / i; });
+      return setLanes(out, [&](int l) { return out[l] / i; });
     }
     case Op::log:
     case Op::atan: {
       const double inverse = 1 / series(v.b)[0];
-      if (i == 0) return set(out, [&](int l) { return (of[l] - out[l] / q) * inverse; });
+      if (i == 0) return setLanes(out, [&](int l) { return (of[l] - out[l] / q) * inverse; });
       kernels::convolveLanes(slope(node), 1, i, lane(v.b, 0), i, out);
       kernels::convolveLanes(series(v.b), 1, i - 1, slopeLane(node), i, out);
-      return set(out, [&](int l) { return (of[l] - out[l] / i) * inverse; });
+      return setLanes(out, [&](int l) { return (of[l] - out[l] / i) * inverse; });
     }
     case Op::sin: {
       double* cosine = lane(node + 1, i);
       const double *s = series(node), *c = series(node + 1);
       if (i == 0) {
-        set(out, [&](int l) { return out[l] / q + of[l] * c[0]; });
-        return set(cosine, [&](int l) { return -(cosine[l] / q + of[l] * s[0]); });
+        setLanes(out, [&](int l) { return out[l] / q + of[l] * c[0]; });
+        return setLanes(cosine, [&](int l) { return -(cosine[l] / q + of[l] * s[0]); });
       }
       kernels::convolveLanes(slope(v.a), 1, i, lane(node + 1, 0), i, out);
       kernels::convolveLanes(c, 0, i - 1, slopeLane(v.a), i, out);
       kernels::convolveLanes(slope(v.a), 1, i, lane(node, 0), i, cosine);
       kernels::convolveLanes(s, 0, i - 1, slopeLane(v.a), i, cosine);
-      set(out, [&](int l) { return out[l] / i; });
-      return set(cosine, [&](int l) { return -cosine[l] / i; });
+      setLanes(out, [&](int l) { return out[l] / i; });
+      return setLanes(cosine, [&](int l) { return -cosine[l] / i; });
     }
     case Op::tanh: {
       double* s = lane(node + 1, i);
       if (i == 0) {
-        set(out, [&](int l) { return out[l] / q + of[l] * series(node + 1)[0]; });
+        setLanes(out, [&](int l) { return out[l] / q + of[l] * series(node + 1)[0]; });
       } else {
         kernels::convolveLanes(slope(v.a), 1, i, lane(node + 1, 0), i, out);
         kernels::convolveLanes(series(node + 1), 0, i - 1, slopeLane(v.a), i, out);
-        set(out, [&](int l) { return out[l] / i; });
+        setLanes(out, [&](int l) { return out[l] / i; });
       }
+      double sum[lanes] = {};
       kernels::convolveLanes(series(node), 0, i, lane(node, 0), i, sum);
-      return set(s, [&](int l) { return -(s[l] + 2 * sum[l]); });
+      return setLanes(s, [&](int l) { return -(s[l] + 2 * sum[l]); });
     }
     default:
       return;

@@ -32,38 +32,57 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   hasKinks_ = std::ranges::any_of(nodes, [](const Node& node) { return node.op == Op::abs || node.op == Op::sign; });
   isByGrades_ = !hasKinks_ && monomials_->pairs().size() >= manyPairs;
   if (isByGrades_ && order == 1 && !withFrame_) stride_ = 1;  // at one time
-  std::vector<char> primary(nodes.size(), 0);
+  planNodes(program, primaryOf(program, primaryOutputs));
+  planSystems(program);
+  planFactors();
+  for (auto* v : {&pointError_, &norm_, &weighted_, &own0_, &own1_, &rho0_, &rho1_, &top_})
+    v->assign(plan_.size(), 0.0);
+  for (auto* v : {&total_, &s1_}) v->assign(plan_.size() * at(stride_), 0.0);
+  scratch_.assign(at(count()), 0.0);
+  scratch2_.assign(at(std::max(count(), largestSystem_)), 0.0);
+  rightSides_.assign(at(largestSystem_ * count()), 0.0);
+  combination_.assign(systems_.empty() ? 0 : at(count() * kernels::reversedStride(stride_)), 0.0);
+  for (auto* v : {&amplified_, &amplified2_}) v->assign(at(largestSystem_ * largestSystem_), 0.0);
+  for (auto* v : {&vector_, &vector2_, &vector3_}) v->assign(at(largestSystem_), 0.0);
+  power_.assign(at(std::max(stride_, 2)), 0.0);
+  weights_.assign(at(stride_), 0.0);
+  putConstants();
+  if (isByGrades_ || count() == 1) prepareThin();
+  if (isByGrades_) planGrades();
+}
+
+/// Of each node, whether the first outputs need it.
+std::vector<char> PolynomialSeries::primaryOf(const Program& program, int primaryOutputs) const {
+  std::vector<char> primary(program.nodes().size(), 0);
   for (int i = 0; i < primaryOutputs; ++i) primary[at(outputs_[at(i)])] = 1;
-  for (std::size_t i = nodes.size(); i-- > 0;) {
-    if (!isOperation(nodes[i].op)) primary[i] = 1;
+  for (std::size_t i = primary.size(); i-- > 0;) {
+    if (!isOperation(program.nodes()[i].op)) primary[i] = 1;
     if (!primary[i]) continue;
     const int node = static_cast<int>(i);
     detail::forEachTwin(program.table(), node, [&](int twin) { primary[at(twin)] = 1; });
     detail::forEachOperand(program.table(), node, [&](int operand) { primary[at(operand)] = 1; });
   }
+  return primary;
+}
 
+/// The degree of every node and of the frame, and where their coefficients and tables lie.
+void PolynomialSeries::planNodes(const Program& program, const std::vector<char>& primary) {
+  const auto& nodes = program.nodes();
   varies_.assign(at(program.parameters()), 0);
   chords_.assign(nodes.size(), {});
-  jump_.assign(nodes.size(), 0.0);
   given_.assign(nodes.size(), std::nullopt);
-  isApart_.assign(nodes.size(), 0);
-  about_.assign(nodes.size(), 0.0);
-  isCalm_.assign(nodes.size(), 0);
-  isSided_.assign(nodes.size(), 0);
-  side_.assign(nodes.size(), 0.0);
-  passed_ = side_;
-  crossing_ = reached_ = jump_;
-  constant_.assign(nodes.size(), 0.0);
-  radius_.assign(nodes.size(), 0.0);
-  pointError_.assign(nodes.size(), 0.0);
   inverseAt_.assign(nodes.size(), none);
-  std::size_t sizeF = 0, sizeR = 0, sizeD = 0, sizeT = 0, sizeS2 = 0, sizeBeyond = 0, sizeInverse = 0, sizeZ = 0;
-  const auto place = [&](Plan& v) {
+  for (auto* v : {&isApart_, &isCalm_, &isSided_}) v->assign(nodes.size(), 0);
+  for (auto* v : {&jump_, &about_, &side_, &passed_, &crossing_, &reached_, &constant_, &radius_})
+    v->assign(nodes.size(), 0.0);
+  std::size_t sizeF = 0, sizeT = 0;
+  const auto place = [&](Plan v) {
     v.count = monomials_->countUpTo(v.degree);
     v.f = sizeF;
     sizeF += at(v.count) * at(stride_);
     v.t = sizeT;
     sizeT += at(v.degree + 1) * at(stride_);
+    plan_.push_back(v);
   };
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Plan v{nodes[i].op, nodes[i].a, nodes[i].b, 0, 0, primary[i] != 0, program.isInvariant(static_cast<int>(i)), false};
@@ -77,111 +96,62 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
       radius_[i] = isThin(c) ? 0.0 : radius(c);
     }
     place(v);
-    plan_.push_back(v);
   }
-  if (withFrame_)
-    for (int i = 0; i < n_ * n_; ++i) {
-      Plan v{Op::state, -1, -1, frameDegree_, 0, false, false, false};
-      place(v);
-      plan_.push_back(v);
-    }
+  for (int i = 0; i < n_ * n_ && withFrame_; ++i) place({Op::state, -1, -1, frameDegree_, 0, false, false, false});
+  f_ = ZeroedNumbers(sizeF);
+  t_.assign(sizeT, 0.0);
+}
 
-  planSystems(program);
-
-  // Which nodes are the right factor of a convolution, and need a copy (reversed, or by grades padded) and tables of
-  // tails?
+/// Which nodes are the right factor of a convolution, and need a copy (reversed, or by grades padded) and tables of
+/// tails; which need a derivative, or the inverse of a leading polynomial.
+void PolynomialSeries::planFactors() {
+  std::size_t sizeR = 0, sizeD = 0, sizeS2 = 0, sizeBeyond = 0, sizeInverse = 0, sizeZ = 0;
   const auto rightFactor = [&](int node) {
     Plan& v = plan_[at(node)];
     v.needsTails = true;
-    if (v.r == none) {
-      v.r = sizeR;
-      sizeR += at(v.count) * at(kernels::reversedStride(stride_));
-      if (!isByGrades_) return;
-      v.z = sizeZ;
-      sizeZ += at(kernels::reversedStride(stride_));
-    }
+    if (v.r != none) return;
+    v.r = sizeR;
+    sizeR += at(v.count) * at(kernels::reversedStride(stride_));
+    if (!isByGrades_) return;
+    v.z = sizeZ;
+    sizeZ += at(kernels::reversedStride(stride_));
   };
   const auto derivative = [&](int node) {
     Plan& v = plan_[at(node)];
-    if (v.d == none) {
-      v.d = sizeD;
-      sizeD += at(v.count) * at(stride_);
-    }
+    if (v.d != none) return;
+    v.d = sizeD;
+    sizeD += at(v.count) * at(stride_);
   };
   for (int i = 0; i < nodes_; ++i) {
     Plan& v = plan_[at(i)];
-    switch (v.op) {
-      case Op::mul:
-        if (plan_[at(v.b)].invariant && !plan_[at(v.a)].invariant) std::swap(v.a, v.b);  // the invariant factor first
-        rightFactor(v.b);
-        break;
-      case Op::sqr:
-        rightFactor(v.a);
-        break;
-      case Op::recip:
-        rightFactor(v.a);
-        break;
-      case Op::sqrt:
-        rightFactor(i);
-        break;
-      case Op::exp:
-        rightFactor(i);
-        derivative(v.a);
-        break;
-      case Op::log:
-      case Op::atan:
-        rightFactor(v.b);
-        derivative(i);
-        break;
-      case Op::sin:
-      case Op::tanh:
-        rightFactor(i);
-        rightFactor(i + 1);
-        derivative(v.a);
-        break;
-      case Op::solution:
-        rightFactor(i);
-        break;
-      default:
-        break;
-    }
-    if (v.op == Op::recip || v.op == Op::sqrt || v.op == Op::log || v.op == Op::atan) {
-      inverseAt_[at(i)] = sizeInverse;
-      sizeInverse += at(v.count);
-    }
+    const bool isQuotient = v.op == Op::log || v.op == Op::atan;
+    if (v.op == Op::mul && plan_[at(v.b)].invariant && !plan_[at(v.a)].invariant)
+      std::swap(v.a, v.b);  // the invariant factor first
+    if (v.op == Op::mul || isQuotient) rightFactor(v.b);
+    if (v.op == Op::sqr || v.op == Op::recip) rightFactor(v.a);
+    if (v.op == Op::sqrt || v.op == Op::exp || v.op == Op::solution || twinOf(v.op) != v.op) rightFactor(i);
+    if (twinOf(v.op) != v.op) rightFactor(i + 1);
+    if (v.op == Op::exp || twinOf(v.op) != v.op) derivative(v.a);
+    if (isQuotient) derivative(i);
+    if (v.op != Op::recip && v.op != Op::sqrt && !isQuotient) continue;
+    inverseAt_[at(i)] = sizeInverse;
+    sizeInverse += at(v.count);
   }
-  if (withFrame_)
-    for (int i = 0; i < n_ * n_; ++i) rightFactor(nodes_ + i);
-  for (Plan& v : plan_)
-    if (v.needsTails) {
-      v.s2 = sizeS2;
-      sizeS2 += at(v.degree + 2) * at(stride_);
-      if (!isCut_ || v.degree < monomials_->degree()) continue;  // of a lower degree nothing is cut
-      v.beyond = sizeBeyond;
-      sizeBeyond += at(monomials_->degree() + 1) * at(stride_);
-    }
-  f_ = ZeroedNumbers(sizeF);
+  for (int i = 0; i < n_ * n_ && withFrame_; ++i) rightFactor(nodes_ + i);
+  for (Plan& v : plan_) {
+    if (!v.needsTails) continue;
+    v.s2 = sizeS2;
+    sizeS2 += at(v.degree + 2) * at(stride_);
+    if (!isCut_ || v.degree < monomials_->degree()) continue;  // of a lower degree nothing is cut
+    v.beyond = sizeBeyond;
+    sizeBeyond += at(monomials_->degree() + 1) * at(stride_);
+  }
   r_ = ZeroedNumbers(sizeR);
-  z_.assign(sizeZ, 0.0);
   d_ = ZeroedNumbers(sizeD);
-  t_.assign(sizeT, 0.0);
+  z_.assign(sizeZ, 0.0);
   s2_.assign(sizeS2, 0.0);
   beyond_.assign(sizeBeyond, 0.0);
   inverse_.assign(sizeInverse, 0.0);
-  total_.assign(plan_.size() * at(stride_), 0.0);
-  s1_.assign(plan_.size() * at(stride_), 0.0);
-  scratch_.assign(at(count()), 0.0);
-  scratch2_.assign(at(std::max(count(), largestSystem_)), 0.0);
-  rightSides_.assign(at(largestSystem_ * count()), 0.0);
-  combination_.assign(systems_.empty() ? 0 : at(count() * kernels::reversedStride(stride_)), 0.0);
-  for (auto* v : {&amplified_, &amplified2_}) v->assign(at(largestSystem_ * largestSystem_), 0.0);
-  for (auto* v : {&vector_, &vector2_, &vector3_}) v->assign(at(largestSystem_), 0.0);
-  for (auto* v : {&norm_, &weighted_, &own0_, &own1_, &rho0_, &rho1_, &top_}) v->assign(plan_.size(), 0.0);
-  power_.assign(at(std::max(stride_, 2)), 0.0);
-  weights_.assign(at(stride_), 0.0);
-  putConstants();
-  if (isByGrades_ || count() == 1) prepareThin();
-  if (isByGrades_) planGrades();
 }
 
 /// Where a step of order m is as long as its last order allows, order i is about ρ^i/i! of a series, and grade q s^q;

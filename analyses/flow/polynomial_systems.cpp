@@ -268,8 +268,35 @@ void PolynomialSeries::tabulateSystem(System& system) {
     }
 }
 
-/// An upper bound of (I - H)⁻¹ ‖C‖, H = own + ‖C‖ ρ_A. False unless some v > 0 with H v < v proves that I - H is an
-/// M-matrix.
+/// Some v > 0, in vector2_, and the share < 1 for which H v ≤ share v, which proves that I - H is an M-matrix, H =
+/// amplified_; 1 if none is found: v = Σ_k H^k w for any w > 0; in the units of x, so that few terms do: the greatest
+/// entries of C's rows.
+double PolynomialSeries::contraction(const System& system) {
+  const int n = system.size;
+  const std::vector<double>&C = system.norms, &H = amplified_;
+  std::vector<double>&w = vector_, &v = vector2_, &Hv = vector3_;
+  for (int i = 0; i < n; ++i) {
+    w[at(i)] = 0;
+    for (int j = 0; j < n; ++j) w[at(i)] = std::max(w[at(i)], C[at(i * n + j)]);
+    v[at(i)] = w[at(i)];
+  }
+  double share = 1;
+  for (int iteration = 0; iteration < 40 && share >= 0.9; ++iteration) {
+    if (iteration > 0)
+      for (int i = 0; i < n; ++i) v[at(i)] = w[at(i)] + Hv[at(i)];
+    share = 0;
+    for (int i = 0; i < n; ++i) {
+      double s = 0;
+      for (int j = 0; j < n; ++j) s += H[at(i * n + j)] * v[at(j)];
+      Hv[at(i)] = s * bounds::up + bounds::tiny;
+      if (!(v[at(i)] > 0 && v[at(i)] < bounds::largest)) return 1;
+      share = std::max(share, Hv[at(i)] / v[at(i)] * bounds::up);
+    }
+  }
+  return share;
+}
+
+/// An upper bound of (I - H)⁻¹ ‖C‖, H = own + ‖C‖ ρ_A.
 bool PolynomialSeries::boundSystem(System& system) {
   const int n = system.size;
   const std::vector<double>& C = system.norms;
@@ -284,26 +311,8 @@ bool PolynomialSeries::boundSystem(System& system) {
       H[at(i * n + j)] = s * bounds::up + bounds::tiny;
       if (!(H[at(i * n + j)] < bounds::largest && C[at(i * n + j)] < bounds::largest)) return false;
     }
-  // v = Σ_k H^k w for any w > 0; in the units of x, so that few terms do: the greatest entries of C's rows.
-  std::vector<double>&w = vector_, &v = vector2_, &Hv = vector3_;
-  for (int i = 0; i < n; ++i) {
-    w[at(i)] = 0;
-    for (int j = 0; j < n; ++j) w[at(i)] = std::max(w[at(i)], C[at(i * n + j)]);
-    v[at(i)] = w[at(i)];
-  }
-  double share = 1;  // H v ≤ share v
-  for (int iteration = 0; iteration < 40 && share >= 0.9; ++iteration) {
-    if (iteration > 0)
-      for (int i = 0; i < n; ++i) v[at(i)] = w[at(i)] + Hv[at(i)];
-    share = 0;
-    for (int i = 0; i < n; ++i) {
-      double s = 0;
-      for (int j = 0; j < n; ++j) s += H[at(i * n + j)] * v[at(j)];
-      Hv[at(i)] = s * bounds::up + bounds::tiny;
-      if (!(v[at(i)] > 0 && v[at(i)] < bounds::largest)) return false;
-      share = std::max(share, Hv[at(i)] / v[at(i)] * bounds::up);
-    }
-  }
+  const double share = contraction(system);
+  const std::vector<double>& v = vector2_;
   if (!(share < 0.99)) return false;
   // Y about (I - H)⁻¹|C|, column by column; Z = Y + s v obeys Z ≥ |C| + H Z where s (1 - share) v ≥ |C| + H Y - Y.
   for (std::size_t i = 0; i < C.size(); ++i) Y[i] = C[i];
