@@ -57,14 +57,8 @@ bool mayTurn(const Program& f) {
   return std::ranges::any_of(f.nodes(), [](const Node& node) { return node.op == Op::sign || node.op == Op::abs; });
 }
 
-}  // namespace
-
-Flow::Flow(Program f, FlowOptions options) {
-  Program none = record(f.states(), f.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
-  *this = Flow(std::move(f), std::move(none), std::move(options));
-}
-
-Flow::Flow(Program f, Program g, FlowOptions options) {
+/// Throws std::invalid_argument unless these make sense together.
+void requireSound(const Program& f, const Program& g, const FlowOptions& options) {
   requireThat(f.states() > 0 && f.outputs() == f.states(),
               "a flow needs one derivative for each of its states (and at least one state)");
   requireThat(g.states() == f.states() && g.parameters() == f.parameters(),
@@ -93,12 +87,10 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   for (const int output : options.uncounted)
     requireThat(output >= 0 && output < g.outputs(), "outputs that do not count are outputs that there are");
   std::set<int> inputs;
-  bool hasRates = false;
   for (const VaryingParameter& input : options.varying) {
     requireThat(input.parameter >= 0 && input.parameter < f.parameters() && inputs.insert(input.parameter).second,
                 "what varies in time must be parameters, each said once");
     requireThat(input.rate > 0, "the rate of what varies in time must be positive");
-    hasRates = hasRates || std::isfinite(input.rate);
   }
   std::set<int> components;
   for (const PreciseValue& value : options.precise)
@@ -107,6 +99,17 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
                     std::fabs(value.low) <= 0x1p-52 * std::fabs(value.high) && value.radius >= 0,
                 "a precise value needs a component of the box of its own, a low part below the high one's digits, and "
                 "a radius");
+}
+
+}  // namespace
+
+Flow::Flow(Program f, FlowOptions options) {
+  Program none = record(f.states(), f.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
+  *this = Flow(std::move(f), std::move(none), std::move(options));
+}
+
+Flow::Flow(Program f, Program g, FlowOptions options) {
+  requireSound(f, g, options);
   if (options.dropsUnneeded) {
     const std::vector<char> isNeeded = neededStates(f, std::array{g, options.aside.values});
     f = withOthersAtRest(f, isNeeded);
@@ -116,7 +119,9 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   }
   FlowFormulation anyCourse(std::move(f), std::move(g), options.varying, options.aside.values);
   std::optional<FlowFormulation> ofRates;
-  if (hasRates) ofRates = anyCourse.ofRates();
+  const std::vector<VaryingParameter>& inputs = options.varying;
+  if (std::ranges::any_of(inputs, [](const VaryingParameter& input) { return std::isfinite(input.rate); }))
+    ofRates = anyCourse.ofRates();
   std::optional<FlowFormulation> withClock;
   const bool isTimed =
       dependsOnTime(anyCourse.motion) || dependsOnTime(anyCourse.outputs) || dependsOnTime(anyCourse.asides);
@@ -259,12 +264,9 @@ Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, bool may
   return FlowRun::meetStages(std::move(tube), std::move(last), options, budget);
 }
 
-}  // namespace
-
-Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& outputTimes,
-                   const std::vector<Box>& levels) const {
-  const FlowFormulation& formulation = parts_->anyCourse;
-  const Program& motion = formulation.motion;
+/// Throws std::invalid_argument unless this can be asked.
+void requireAnswerable(const Program& motion, const std::vector<PreciseValue>& precise, const Box& box, double horizon,
+                       const std::vector<double>& outputTimes, const std::vector<Box>& levels) {
   requireThat(box.size() == at(motion.states() + motion.parameters()),
               "the box needs " + std::to_string(motion.states()) + " initial values and " +
                   std::to_string(motion.parameters()) + " parameters, not " + std::to_string(box.size()) + " numbers");
@@ -273,10 +275,39 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
     requireThat(outputTimes[i] >= 0 && outputTimes[i] <= horizon && (i == 0 || outputTimes[i] >= outputTimes[i - 1]),
                 "output times must rise from 0 to the horizon");
   requireNested(box, levels);
-  for (const PreciseValue& value : parts_->options.precise) {
+  for (const PreciseValue& value : precise) {
     const Interval known = Interval(value.high) + Interval(value.low) + Interval(-value.radius, value.radius);
     requireThat(!isEmpty(intersection(known, box[at(value.component)])), "a precise value must be one of the box's");
   }
+}
+
+/// What follows besides from rates of inputs that are bounded: up to an output time, so that both have the same rows.
+void meetRates(Tube& tube, const FlowFormulation& ofRates, const Program& motion, FlowOptions options,
+               FlowBudget& budget, const Box& box, double horizon, const std::vector<Box>& levels) {
+  const double told = ofRates.horizonOf(box, horizon);
+  std::vector<double> early;
+  for (double time : tube.times())
+    if (time > 0 && time <= std::min(told, tube.reached())) early.push_back(time);
+  if (early.empty()) return;
+  options.modelled.clear();
+  options.modelledAt.clear();
+  options.extremesAt.clear();
+  Tube other = answer(ofRates, options, budget, box, early.back(), early, levels);
+  FlowRun::dropStates(other, motion.states());
+  const FlowCause limit = other.limitCause().isNone() ? tube.limitCause() : other.limitCause();
+  const std::shared_ptr<const FlowModels> models = tube.models();
+  tube = FlowRun::meet(std::move(tube), std::move(other));
+  FlowRun::setModels(tube, models);
+  FlowRun::explain(tube, options, limit);
+}
+
+}  // namespace
+
+Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& outputTimes,
+                   const std::vector<Box>& levels) const {
+  const FlowFormulation& formulation = parts_->anyCourse;
+  const Program& motion = formulation.motion;
+  requireAnswerable(motion, parts_->options.precise, box, horizon, outputTimes, levels);
   requireNearest();
   FlowOptions options = parts_->options;
   double furthest = 0;  // runs and threads report one at a time; what they report must not go back
@@ -319,23 +350,8 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   }
   if (mayPass && mayHaveOwnTimes && hasSymbols) return staged(formulation, own, rest(1));
   Tube tube = answer(formulation, options, budget, box, horizon, outputTimes, levels);
-  if (!parts_->ofRates || tube.wasStopped()) return tube;
-  // Up to an output time, so that both have the same rows.
-  const double told = parts_->ofRates->horizonOf(box, horizon);
-  std::vector<double> early;
-  for (double time : tube.times())
-    if (time > 0 && time <= std::min(told, tube.reached())) early.push_back(time);
-  if (early.empty()) return tube;
-  options.modelled.clear();
-  options.modelledAt.clear();
-  options.extremesAt.clear();
-  Tube ofRates = answer(*parts_->ofRates, options, budget, box, early.back(), early, levels);
-  FlowRun::dropStates(ofRates, motion.states());
-  const FlowCause limit = ofRates.limitCause().isNone() ? tube.limitCause() : ofRates.limitCause();
-  const std::shared_ptr<const FlowModels> models = tube.models();
-  tube = FlowRun::meet(std::move(tube), std::move(ofRates));
-  FlowRun::setModels(tube, models);
-  FlowRun::explain(tube, options, limit);
+  if (parts_->ofRates && !tube.wasStopped())
+    meetRates(tube, *parts_->ofRates, motion, options, budget, box, horizon, levels);
   return tube;
 }
 

@@ -203,33 +203,22 @@ double FlowGrowth::exponentOf(const std::vector<double>& matrix) {
   return exponent;
 }
 
-/// About Z = centre h: P ≥ |e^{Zt}| at every time t of [0, 1], Q1 ≥ ∫ |e^{Zt}|, Q2 ≥ ∫ |e^{Zt}| (1 - t)^m. F_j,
-/// computed powers of a series over 1/K, are off by no more than `off` in any row; between two of them an entry g of
-/// e^{Zt} leaves its chord by 1/(8K²) max|g''|, and g'' = Z² F_j e^{Zs} with |e^{Zs} - I| ≤ e^{‖Z‖/K} - 1 in any row.
-bool FlowGrowth::follow(double h) {
-  const double u = 3 * (n_ + 4) * bounds::unit;  // of a product, and sums of its size
-  std::vector<double> Z(centre_.size());
-  const auto norm = [&](const std::vector<double>& a) {
-    double most = 0;
-    for (int i = 0; i < n_; ++i) {
-      double row = 0;
-      for (int j = 0; j < n_; ++j) row += std::fabs(a[at(i, j)]);
-      most = std::isfinite(row) ? std::max(most, row) : row;
-    }
-    return most * bounds::up;
-  };
-  for (int i = 0; i < n_; ++i)
-    for (int j = 0; j < n_; ++j)
-      Z[at(i, j)] =
-          std::ldexp(centre_[at(i, j)] * h, unit_[static_cast<std::size_t>(j)] - unit_[static_cast<std::size_t>(i)]);
-  const double size = norm(Z);
-  constexpr double farthest = 16, piece = 0.25;
-  if (!(size < farthest)) return false;
-  const int K = 1 << std::max(3, std::ilogb(size / piece) + 1);
-  // The series to order 12: what is left is below piece^13/13!/(1 - piece), 3e-18.
-  std::vector<double> F(Z.size(), 0.0), E, square, turned;
-  for (int i = 0; i < n_; ++i) F[at(i, i)] = 1;
-  E = power_ = F;
+/// The greatest sum of a row.
+double FlowGrowth::normOf(const std::vector<double>& a) const {
+  double most = 0;
+  for (int i = 0; i < n_; ++i) {
+    double row = 0;
+    for (int j = 0; j < n_; ++j) row += std::fabs(a[at(i, j)]);
+    most = std::isfinite(row) ? std::max(most, row) : row;
+  }
+  return most * bounds::up;
+}
+
+/// e^{Z/K} by the series to order 12: with ‖Z/K‖ ≤ 1/4 what is left is below (1/4)^13/13!/(1 - 1/4), 3e-18.
+std::vector<double> FlowGrowth::exponentialOf(const std::vector<double>& Z, int K) {
+  std::vector<double> E(Z.size(), 0.0);
+  for (int i = 0; i < n_; ++i) E[at(i, i)] = 1;
+  power_ = E;
   constexpr int orders = 12;
   for (int i = 1; i <= orders; ++i) {
     multiply(Z, power_, next_);
@@ -238,9 +227,29 @@ bool FlowGrowth::follow(double h) {
       E[e] += power_[e];
     }
   }
+  return E;
+}
+
+/// About Z = centre h: P ≥ |e^{Zt}| at every time t of [0, 1], Q1 ≥ ∫ |e^{Zt}|, Q2 ≥ ∫ |e^{Zt}| (1 - t)^m. F_j,
+/// computed powers of a series over 1/K, are off by no more than `off` in any row; between two of them an entry g of
+/// e^{Zt} leaves its chord by 1/(8K²) max|g''|, and g'' = Z² F_j e^{Zs} with |e^{Zs} - I| ≤ e^{‖Z‖/K} - 1 in any row.
+bool FlowGrowth::follow(double h) {
+  const double u = 3 * (n_ + 4) * bounds::unit;  // of a product, and sums of its size
+  std::vector<double> Z(centre_.size());
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j)
+      Z[at(i, j)] =
+          std::ldexp(centre_[at(i, j)] * h, unit_[static_cast<std::size_t>(j)] - unit_[static_cast<std::size_t>(i)]);
+  const double size = normOf(Z);
+  constexpr double farthest = 16, piece = 0.25;
+  if (!(size < farthest)) return false;
+  const int K = 1 << std::max(3, std::ilogb(size / piece) + 1);
+  const std::vector<double> E = exponentialOf(Z, K);
+  std::vector<double> F(Z.size(), 0.0), square, turned;
+  for (int i = 0; i < n_; ++i) F[at(i, i)] = 1;
   // Term i has i products of n terms, with as many roundings more: (n + 2) u i ‖Z/K‖^i/i!, together below (n + 2) u;
   // the rounding of Z itself u ‖Z/K‖ e^{‖Z/K‖}, those of the sum 12 u e^{‖Z/K‖}.
-  const double first = u + 16 * bounds::unit + 4e-18, step = norm(E);
+  const double first = u + 16 * bounds::unit + 4e-18, step = normOf(E);
   const double turn = std::exp(size / K) * bounds::up - 1 + 0x1p-40;
   multiply(Z, Z, square);
   const double bend = 1.0 / (8.0 * K * K);
@@ -254,7 +263,7 @@ bool FlowGrowth::follow(double h) {
     const double after = k == K ? 0.0 : std::pow(1 - static_cast<double>(k) / K, m_ + 1);
     const double weight = ((before - after) / (m_ + 1)) * bounds::up + 0x1p-50 * before;
     before = after;
-    const double now = norm(F), behindOff = (step * (off + u * now) + first * (now + off)) * bounds::up;
+    const double now = normOf(F), behindOff = (step * (off + u * now) + first * (now + off)) * bounds::up;
     multiply(E, F, next_);
     for (int i = 0; i < n_; ++i) {
       double row = 0;

@@ -44,6 +44,8 @@ class FlowGrowth {
   bool computePlain(double h);
   bool computeDamped(double h);
   bool computeAbout(double h);
+  double normOf(const std::vector<double>& a) const;
+  std::vector<double> exponentialOf(const std::vector<double>& Z, int K);
   bool follow(double h);
   double exponentOf(const std::vector<double>& matrix);
   void integrate(double rate, std::vector<double>& exponential, std::vector<double>& integral);

@@ -78,6 +78,16 @@ Directions directionsOf(const Matrices& generators, const Monomials& m, const Ve
   return found;
 }
 
+/// Of each generator, in a sum of boxes.
+std::vector<std::pair<double, std::size_t>> lossesOf(const Matrix& extent, const Vector& unit) {
+  std::vector<std::pair<double, std::size_t>> losses;
+  for (Eigen::Index j = 0; j < extent.cols(); ++j) {
+    const Vector size = extent.col(j).cwiseQuotient(unit);
+    losses.emplace_back(size.sum() - size.maxCoeff(), at(j));
+  }
+  return losses;
+}
+
 /// Those that lose least.
 std::vector<char> least(std::vector<std::pair<double, std::size_t>> losses, std::size_t count) {
   for (auto& [loss, generator] : losses)
@@ -126,12 +136,7 @@ void mergeGenerators(FlowSet& set, const Monomials& monomials, std::size_t most)
   Vector unit = Vector::Ones(n);
   for (Eigen::Index i = 0; i < n && !set.units.empty(); ++i) unit(i) = std::ldexp(1.0, set.units[at(i)]);
 
-  std::vector<std::pair<double, std::size_t>> losses;
-  for (Eigen::Index j = 0; j < columns; ++j) {
-    const Vector size = extent.col(j).cwiseQuotient(unit);
-    losses.emplace_back(size.sum() - size.maxCoeff(), at(j));
-  }
-  std::vector<char> isMerged = least(std::move(losses), count - most + at(n));
+  const std::vector<char> isMerged = least(lossesOf(extent, unit), count - most + at(n));
   Vector box = Vector::Zero(n);
   for (Eigen::Index j = 0; j < columns; ++j)
     if (isMerged[at(j)] != 0) box += extent.col(j);
@@ -144,7 +149,7 @@ void mergeGenerators(FlowSet& set, const Monomials& monomials, std::size_t most)
   if (!directions.most.allFinite() || !directions.rest.allFinite())  // fewer directions than states
     return replace(set, generators, isMerged, {}, box);
   const Vector whole = directions.most.rowwise().sum();
-  losses.clear();
+  std::vector<std::pair<double, std::size_t>> losses;
   for (Eigen::Index j = 0; j < columns; ++j) {
     const Vector own = directions.most.col(j).cwiseQuotient(whole);
     const double rest = (directions.inverse * directions.rest.col(j)).cwiseQuotient(whole).sum();

@@ -205,44 +205,46 @@ bool PolygonMotion::step(double end) {
   return false;
 }
 
-bool PolygonMotion::tryStep(double end) {
-  const double h = end - time_;  // about
-  const Interval step = Interval(end) - Interval(time_), t(time_, end);
-  const std::vector<PolygonSide>& sides = polygon_.sides();
-  moving_.assign(sides.size(), {});
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const PlaneVector a = polygon_.corner(polygon_.before(i)), b = polygon_.corner(i), d = sides[i].normal;
-    const PlaneVector z{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-    const auto turned = [](const Values& values, const PlaneVector& normal) {
-      const auto& J = values.jacobian;
-      return PlaneVector{-(J[0][0] * normal[0] + J[1][0] * normal[1]), -(J[0][1] * normal[0] + J[1][1] * normal[1])};
-    };
-    const Values first = valuesAt(time_, z, d);
-    const PlaneVector d1 = turned(first, d);
-    const PlaneVector half{d[0] + 0.5 * h * d1[0], d[1] + 0.5 * h * d1[1]};
-    const PlaneVector place{z[0] + 0.5 * h * first.pushed[0], z[1] + 0.5 * h * first.pushed[1]};
-    const Values second = valuesAt(time_ + 0.5 * h, place, half);
-    const PlaneVector d2 = turned(second, half);
-    Moving& side = moving_[i];
-    side.normal.from = d;
-    side.centre.from = z;
-    for (std::size_t k : {0U, 1U}) {
-      side.normal.to[k] = d[k] + h * d2[k];
-      side.normal.bend[k] = h * d1[k] - (side.normal.to[k] - d[k]);
-      side.centre.to[k] = z[k] + h * second.pushed[k];
-      side.centre.bend[k] = h * first.pushed[k] - (side.centre.to[k] - z[k]);
-      if (!std::isfinite(side.normal.to[k]) || !std::isfinite(side.centre.to[k])) return false;
-    }
-    side.excess = Interval(sides[i].offset) - dot(enclosed(d), enclosed(z));
-    double push = 0;
-    for (std::size_t k : {0U, 1U}) push += std::fabs(d[k] * (first.pushed[k] - first.f[k]));
-    side.allowed = 1.5 * h * std::fabs(sides[i].rate) + 0.02 * h * push + 1e-12 * std::fabs(sides[i].offset);
+/// How side i is to move in h seconds, about: as the middle of its corners does, by Runge's midpoint rule. False if
+/// that is no number.
+bool PolygonMotion::move(std::size_t i, double h) {
+  const PolygonSide& at = polygon_.sides()[i];
+  const PlaneVector a = polygon_.corner(polygon_.before(i)), b = polygon_.corner(i), d = at.normal;
+  const PlaneVector z{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+  const auto turned = [](const Values& values, const PlaneVector& normal) {
+    const auto& J = values.jacobian;
+    return PlaneVector{-(J[0][0] * normal[0] + J[1][0] * normal[1]), -(J[0][1] * normal[0] + J[1][1] * normal[1])};
+  };
+  const Values first = valuesAt(time_, z, d);
+  const PlaneVector d1 = turned(first, d);
+  const PlaneVector half{d[0] + 0.5 * h * d1[0], d[1] + 0.5 * h * d1[1]};
+  const PlaneVector place{z[0] + 0.5 * h * first.pushed[0], z[1] + 0.5 * h * first.pushed[1]};
+  const Values second = valuesAt(time_ + 0.5 * h, place, half);
+  const PlaneVector d2 = turned(second, half);
+  Moving& side = moving_[i];
+  side.normal.from = d;
+  side.centre.from = z;
+  for (std::size_t k : {0U, 1U}) {
+    side.normal.to[k] = d[k] + h * d2[k];
+    side.normal.bend[k] = h * d1[k] - (side.normal.to[k] - d[k]);
+    side.centre.to[k] = z[k] + h * second.pushed[k];
+    side.centre.bend[k] = h * first.pushed[k] - (side.centre.to[k] - z[k]);
+    if (!std::isfinite(side.normal.to[k]) || !std::isfinite(side.centre.to[k])) return false;
   }
+  side.excess = Interval(at.offset) - dot(enclosed(d), enclosed(z));
+  double push = 0;
+  for (std::size_t k : {0U, 1U}) push += std::fabs(d[k] * (first.pushed[k] - first.f[k]));
+  side.allowed = 1.5 * h * std::fabs(at.rate) + 0.02 * h * push + 1e-12 * std::fabs(at.offset);
+  return true;
+}
+
+/// Rates of all sides, each no more than what the others are bounded with.
+bool PolygonMotion::boundRates(const Interval& step, const Interval& t) {
   constexpr int mostTries = 8;
-  for (int attempt = 0;; ++attempt) {
+  for (int attempt = 0; attempt <= mostTries; ++attempt) {
     bool isHeld = true;
     loose_ = pushed_ = 0;
-    for (std::size_t i = 0; i < sides.size(); ++i)
+    for (std::size_t i = 0; i < moving_.size(); ++i)
       if (!boundEnds(i)) return false;
     for (Moving& side : moving_) {
       const double rate = boundRate(side, step, t);
@@ -253,9 +255,17 @@ bool PolygonMotion::tryStep(double end) {
         isHeld = false;
       }
     }
-    if (isHeld) break;
-    if (attempt == mostTries) return false;
+    if (isHeld) return true;
   }
+  return false;
+}
+
+bool PolygonMotion::tryStep(double end) {
+  const double h = end - time_;  // about
+  moving_.assign(polygon_.sides().size(), {});
+  for (std::size_t i = 0; i < moving_.size(); ++i)
+    if (!move(i, h)) return false;
+  if (!boundRates(Interval(end) - Interval(time_), Interval(time_, end))) return false;
   std::vector<PolygonSide> moved;
   for (const Moving& side : moving_) {
     PlaneVector normal = side.normal.to;
@@ -307,69 +317,88 @@ bool PolygonMotion::boundEnds(std::size_t i) {
   return true;
 }
 
+/// A side on its way: its normal and centre at any time of the step, in its middle, and by λ.
+struct PolygonMotion::Pose {
+  explicit Pose(const Moving& side)
+      : d(side.normal.all()),
+        dMiddle(side.normal.middle()),
+        dSpeed(side.normal.speed()),
+        z(side.centre.all()),
+        zMiddle(side.centre.middle()),
+        zSpeed(side.centre.speed()),
+        left{-d[1], d[0]},
+        leftMiddle{-dMiddle[1], dMiddle[0]} {}
+  PlaneBox d, dMiddle, dSpeed, z, zMiddle, zSpeed, left, leftMiddle;
+};
+
+/// R on a part of the side, and what of it is for the step's length and for inputs; nothing where it is not bounded.
+std::optional<PolygonMotion::Rate> PolygonMotion::rateOn(const Interval& along, const Moving& side, const Pose& at,
+                                                         const Interval& h, const Interval& t) {
+  const Interval middle(midpoint(along)), about(-0.5, 0.5);
+  PlaneBox yMiddle, y, away;
+  for (std::size_t k : {0U, 1U}) {
+    yMiddle[k] = middle * at.leftMiddle[k];
+    y[k] = along * at.left[k] + side.across * at.d[k];
+    away[k] = (along - middle) * at.leftMiddle[k] + along * (at.left[k] - at.leftMiddle[k]) + side.across * at.d[k];
+  }
+  std::array<Interval, 3> place;
+  std::array<Interval, 2> f;
+  for (std::size_t k : {0U, 1U}) place[k] = (at.zMiddle[k] + yMiddle[k]) * Interval(unit_[k]);
+  place[2] = Interval(time_) + h * Interval(0.5);
+  plain_(place[2], place, f);
+  for (std::size_t k : {0U, 1U}) f[k] = h * f[k] / Interval(unit_[k]);
+  // R where λ = ½, y in the middle of the part: z' is to - from there.
+  Interval rate(0);
+  for (std::size_t k : {0U, 1U}) {
+    const Interval speed = Interval(side.centre.to[k]) - Interval(side.centre.from[k]);
+    const Interval turn = Interval(side.normal.to[k]) - Interval(side.normal.from[k]);
+    rate += at.dMiddle[k] * (f[k] - speed) + turn * yMiddle[k];
+  }
+  for (std::size_t k : {0U, 1U}) place[k] = (at.z[k] + hull(y[k], yMiddle[k])) * Interval(unit_[k]);
+  place[2] = t;
+  full_(t, place, found_);
+  for (const Interval& value : found_)
+    if (!isCommon(value)) return std::nullopt;
+  const auto J = [&](std::size_t i, std::size_t k) {
+    return h * found_[2 + 3 * i + k] * (Interval(unit_[k]) / Interval(unit_[i]));
+  };
+  Interval byTime(0), byPlace(0), byPush(0);
+  for (std::size_t i : {0U, 1U}) {
+    const Interval unit(unit_[i]);
+    const Interval moving = h * found_[i] / unit - at.zSpeed[i];
+    const Interval second = h * h * found_[2 + 3 * i + 2] / unit + J(i, 0) * at.zSpeed[0] + J(i, 1) * at.zSpeed[1] +
+                            Interval(2 * side.centre.bend[i]);
+    byTime += at.dSpeed[i] * moving + at.d[i] * second - Interval(2 * side.normal.bend[i]) * yMiddle[i];
+    byPlace += (at.d[0] * J(0, i) + at.d[1] * J(1, i) + at.dSpeed[i]) * away[i];
+  }
+  for (std::size_t p = 0; p < wide_; ++p) {
+    const Interval by =
+        at.d[0] * found_[8 + p] / Interval(unit_[0]) + at.d[1] * found_[8 + wide_ + p] / Interval(unit_[1]);
+    byPush += Interval(magnitude(by)) * Interval(radius_[p]);
+  }
+  const Interval all = rate + about * byTime + byPlace + h * byPush;
+  if (!isCommon(all)) return std::nullopt;
+  return Rate{all, magnitude(about * byTime), (h * byPush).upper()};
+}
+
 /// R at most, with all that may be added to it in the step, in parts of the side.
-double PolygonMotion::boundRate(Moving& side, const Interval& h, const Interval& t) {
-  const PlaneBox d = side.normal.all(), dMiddle = side.normal.middle(), dSpeed = side.normal.speed();
-  const PlaneBox z = side.centre.all(), zMiddle = side.centre.middle(), zSpeed = side.centre.speed();
-  const PlaneBox left{-d[1], d[0]}, leftMiddle{-dMiddle[1], dMiddle[0]};
-  const Interval about(-0.5, 0.5);
-  const double length = width(side.along) * std::sqrt(magnitude(sqr(d[0]) + sqr(d[1])));
+double PolygonMotion::boundRate(const Moving& side, const Interval& h, const Interval& t) {
+  const Pose pose(side);
+  const double length = width(side.along) * std::sqrt(magnitude(sqr(pose.d[0]) + sqr(pose.d[1])));
   const double size = std::max(width(polygon_.box()[0]), width(polygon_.box()[1]));
   const auto mostParts = static_cast<double>(count_);
   const double wanted = size > 0 ? std::ceil(length * mostParts / (2 * size)) : 1;
   const int parts = static_cast<int>(wanted > 1 ? std::min(wanted, mostParts) : 1);
   const double begin = side.along.lower(), whole = side.along.upper() - begin;
-  std::array<Interval, 3> place;
-  std::array<Interval, 2> f;
   double most = -unknownRate;
   for (int part = 0; part < parts; ++part) {
     const double from = part == 0 ? begin : begin + whole * part / parts;
     const double to = part + 1 == parts ? side.along.upper() : begin + whole * (part + 1) / parts;
-    const Interval along(from, std::max(from, to));
-    const double middle = midpoint(along);
-    PlaneBox yMiddle, y, away;
-    for (std::size_t k : {0U, 1U}) {
-      yMiddle[k] = Interval(middle) * leftMiddle[k];
-      y[k] = along * left[k] + side.across * d[k];
-      away[k] = (along - Interval(middle)) * leftMiddle[k] + along * (left[k] - leftMiddle[k]) + side.across * d[k];
-    }
-    for (std::size_t k : {0U, 1U}) place[k] = (zMiddle[k] + yMiddle[k]) * Interval(unit_[k]);
-    place[2] = Interval(time_) + h * Interval(0.5);
-    plain_(place[2], place, f);
-    for (std::size_t k : {0U, 1U}) f[k] = h * f[k] / Interval(unit_[k]);
-    // R where λ = ½, y in the middle of the part: z' is to - from there.
-    Interval rate(0);
-    for (std::size_t k : {0U, 1U}) {
-      const Interval speed = Interval(side.centre.to[k]) - Interval(side.centre.from[k]);
-      const Interval turn = Interval(side.normal.to[k]) - Interval(side.normal.from[k]);
-      rate += dMiddle[k] * (f[k] - speed) + turn * yMiddle[k];
-    }
-    for (std::size_t k : {0U, 1U}) place[k] = (z[k] + hull(y[k], yMiddle[k])) * Interval(unit_[k]);
-    place[2] = t;
-    full_(t, place, found_);
-    for (const Interval& value : found_)
-      if (!isCommon(value)) return unknownRate;
-    const auto J = [&](std::size_t i, std::size_t k) {
-      return h * found_[2 + 3 * i + k] * (Interval(unit_[k]) / Interval(unit_[i]));
-    };
-    Interval byTime(0), byPlace(0), byPush(0);
-    for (std::size_t i : {0U, 1U}) {
-      const Interval unit(unit_[i]);
-      const Interval moving = h * found_[i] / unit - zSpeed[i];
-      const Interval second = h * h * found_[2 + 3 * i + 2] / unit + J(i, 0) * zSpeed[0] + J(i, 1) * zSpeed[1] +
-                              Interval(2 * side.centre.bend[i]);
-      byTime += dSpeed[i] * moving + d[i] * second - Interval(2 * side.normal.bend[i]) * yMiddle[i];
-      byPlace += (d[0] * J(0, i) + d[1] * J(1, i) + dSpeed[i]) * away[i];
-    }
-    for (std::size_t p = 0; p < wide_; ++p) {
-      const Interval by = d[0] * found_[8 + p] / Interval(unit_[0]) + d[1] * found_[8 + wide_ + p] / Interval(unit_[1]);
-      byPush += Interval(magnitude(by)) * Interval(radius_[p]);
-    }
-    const Interval all = rate + about * byTime + byPlace + h * byPush;
-    if (!isCommon(all)) return unknownRate;
-    loose_ += magnitude(about * byTime) / parts;
-    pushed_ += (h * byPush).upper() / parts;
-    most = std::max(most, all.upper());
+    const std::optional<Rate> rate = rateOn(Interval(from, std::max(from, to)), side, pose, h, t);
+    if (!rate) return unknownRate;
+    loose_ += rate->byTime / parts;
+    pushed_ += rate->byPush / parts;
+    most = std::max(most, rate->all.upper());
   }
   Work::count(Work::boundedNode, 60.0 * parts);
   return most * (most > 0 ? bounds::up : bounds::down) + bounds::tiny;

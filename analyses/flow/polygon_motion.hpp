@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "analyses/flow/polygon.hpp"
@@ -59,9 +60,18 @@ class PolygonMotion {
   void setUnits(const Box& starts, double horizon);
   Values valuesAt(double t, const PlaneVector& x, const PlaneVector& normal);
   void tidy();
+  bool move(std::size_t i, double h);
   bool tryStep(double end);
   bool boundEnds(std::size_t i);
-  double boundRate(Moving& side, const Interval& h, const Interval& t);
+  struct Pose;
+  struct Rate {
+    Interval all;
+    double byTime, byPush;
+  };
+  std::optional<Rate> rateOn(const Interval& along, const Moving& side, const Pose& at, const Interval& h,
+                             const Interval& t);
+  double boundRate(const Moving& side, const Interval& h, const Interval& t);
+  bool boundRates(const Interval& step, const Interval& t);
 
   std::vector<char> isWide_;          // of each parameter
   std::size_t wide_;                  // how many are: those whose derivative counts

@@ -306,89 +306,137 @@ class FixedPieces {
   FlowCause limit_;
 };
 
+/// Rounds in which pieces are bisected on the way, each with what the one before was short of.
+class Rounds {
+ public:
+  Rounds(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, Weighing& weighing,
+         double spentBefore)
+      : question_(question), box_(box), levels_(levels), weighing_(weighing), spentBefore_(spentBefore) {
+    round_.isLast = false;
+  }
+
+  void follow(Tube& best, double& looseness) {
+    while (goOn(best, looseness)) {
+    }
+  }
+
+  const FlowCause& limit() const { return limit_; }
+
+ private:
+  static constexpr double decidedly = 10;
+
+  /// What a round tells of the next.
+  struct Outcome {
+    double own = 0, factor = 1;  // looseness; how much tighter thresholds are to be
+    bool isNoBetter = false, isInVain = false;
+    bool weighsAnew = false, mayRaise = false;
+  };
+
+  /// One round more; whether another one may help.
+  bool goOn(Tube& best, double& looseness) {
+    ++count_;
+    const bool isCheap = isFarther_ && reached_ < question_.horizon && question_.budget.spent - spentBefore_ < cheap;
+    round_.isLast = round_.isLast || count_ == mostCheapRounds || (count_ >= mostRounds && !isCheap);
+    round_.emphasis = weighing_.emphasis();
+    round_.scales = weighing_.scales();
+    const FlowTask task(question_, box_, levels_, round_);
+    FlowRun run(task);
+    Tube tube = run.run();
+    const Outcome outcome = judge(task, run, tube);
+    addTo(best, looseness, std::move(tube), outcome.own);
+    if (round_.isLast || (reached_ == question_.horizon && outcome.own <= question_.options.enough)) return false;
+    return prepare(task, run, outcome);
+  }
+
+  Outcome judge(const FlowTask& task, const FlowRun& run, const Tube& tube) {
+    Outcome of{.own = run.looseness()};
+    of.isNoBetter =
+        isAlike_ && reached_ == question_.horizon && tube.reached() == reached_ && of.own > 0.5 * looseBefore_;
+    of.isInVain = of.isNoBetter && tightened_ >= decidedly;
+    of.factor = run.tighterBy(tube);
+    if (of.isNoBetter && of.factor > 1)
+      of.factor = std::max(of.factor, decidedly);  // what was allowed before was nowhere reached
+    of.weighsAnew = of.factor > 1 && !round_.emphasis.isUniform() && weighing_.raise(run.influence());
+    of.mayRaise = of.factor > 1 && run.needsDegree() && task.hasRicherOutputs();
+    isFarther_ = tube.reached() > reached_;
+    reached_ = tube.reached();
+    looseBefore_ = of.own;
+    limit_ = run.limit(tube);
+    // Where smaller thresholds do not help, terms of higher degree may. So it is where all that is left of the states
+    // is rounding, but not of outputs: a linear motion is never bisected for these.
+    const bool isOfOutputs = limit_.kind == FlowCause::Kind::rounding && run.needsDegree();
+    const int degree = question_.options.degree >= 0 ? question_.options.degree
+                       : run.needsDegree()           ? run.outputDegree()
+                                                     : run.degree();
+    if ((limit_.isNone() && of.factor > 1) || isOfOutputs)
+      limit_ = {of.isInVain || isOfOutputs ? FlowCause::Kind::vain : FlowCause::Kind::rounds, "", degree + 2};
+    return of;
+  }
+
+  /// The next round; false if none helps.
+  bool prepare(const FlowTask& task, const FlowRun& run, const Outcome& of) {
+    // Of what has lost its ξ to jumps all that is left over counts, which smaller thresholds do not make less: first
+    // what slides is bisected, of a whole result and with the same thresholds.
+    const double share = round_.slideShare > 0 ? round_.slideShare / 4 : task.aim();
+    const bool isOfSlides = !of.weighsAnew && reached_ == question_.horizon && of.factor > 1 &&
+                            run.slideLoss() > share && task.bisectsForWidth();
+    isAlike_ = !of.weighsAnew && !isOfSlides;
+    tightened_ = of.factor;
+    if (of.weighsAnew) return true;  // with other weights
+    if (isOfSlides) {
+      round_.slideShare = share;
+    } else if (of.mayRaise && !of.isInVain) {
+      ++round_.richer;
+    } else if (of.factor > 1 && !of.isInVain) {
+      const double hardly = reached_ < question_.horizon ? 0.001 : 0.2;  // an early end says less of what was to blame
+      if (run.timeShare() < 1 - hardly) {
+        // Below a threshold that was nowhere met lies what there was.
+        const double hidden = run.hiddenDefect(reached_);
+        round_.tighter *= of.factor * (hidden > 0 ? std::clamp(task.shares.truncation / hidden, 1.0, mostHidden) : 1.0);
+      }
+      // The greatest share is of the whole motion; where less truncation helped nowhere, it was not to blame.
+      if (run.timeShare() > hardly || of.isNoBetter) round_.finer *= of.factor;
+    } else if (run.isAbandoned()) {
+      round_.isLast = true;  // the same once more, as far as it comes
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  const FlowQuestion& question_;
+  const Box& box_;
+  const std::vector<Box>& levels_;
+  Weighing& weighing_;
+  double spentBefore_;
+  FlowRound round_;
+  FlowCause limit_;
+  int count_ = 0;
+  double reached_ = 0, looseBefore_ = 0, tightened_ = 1;  // by the factor before
+  bool isAlike_ = true;                                   // to the round before, but tighter
+  bool isFarther_ = true;                                 // than that came
+};
+
 }  // namespace
 
 Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, double& looseness) {
   Tube best;
-  FlowCause limit;
   Weighing weighing(question, box);
-  FlowRound round;
-  round.isLast = false;
   const double spentBefore = question.budget.spent;
+  const auto finished = [&](const FlowCause& limit) {
+    FlowRun::charge(best, weighing.cpuSeconds());
+    FlowRun::explain(best, question.options, limit);
+    return std::move(best);
+  };
   const bool mayBeFixed = question.options.split && question.options.degree < 0 && question.options.varying.empty() &&
                           !question.stopsEarly;  // a turn may ask for bisection
   if (mayBeFixed && FixedPieces::suits(weighing.emphasis())) {
     FixedPieces fixed(question, box, levels, weighing);
-    if (fixed.follow(best, looseness)) {
-      FlowRun::charge(best, weighing.cpuSeconds());
-      FlowRun::explain(best, question.options, fixed.limit());
-      return best;
-    }
+    if (fixed.follow(best, looseness)) return finished(fixed.limit());
   }
-  double reached = 0, looseBefore = 0, tightened = 1;  // by the factor before
-  bool isAlike = true;                                 // to the round before, but tighter
-  bool isFarther = true;                               // than that came
-  for (int count = 1;; ++count) {
-    const bool isCheap = isFarther && reached < question.horizon && question.budget.spent - spentBefore < cheap;
-    round.isLast = round.isLast || count == mostCheapRounds || (count >= mostRounds && !isCheap);
-    round.emphasis = weighing.emphasis();
-    round.scales = weighing.scales();
-    const FlowTask task(question, box, levels, round);
-    FlowRun run(task);
-    Tube tube = run.run();
-    const double own = run.looseness();
-    constexpr double decidedly = 10;
-    const bool isNoBetter =
-        isAlike && reached == question.horizon && tube.reached() == reached && own > 0.5 * looseBefore;
-    const bool isInVain = isNoBetter && tightened >= decidedly;
-    double factor = run.tighterBy(tube);
-    if (isNoBetter && factor > 1) factor = std::max(factor, decidedly);  // what was allowed before was nowhere reached
-    const bool weighsAnew = factor > 1 && !round.emphasis.isUniform() && weighing.raise(run.influence());
-    const bool mayRaise = factor > 1 && run.needsDegree() && task.hasRicherOutputs();
-    isFarther = tube.reached() > reached;
-    reached = tube.reached();
-    looseBefore = own;
-    limit = run.limit(tube);
-    // Where smaller thresholds do not help, terms of higher degree may. So it is where all that is left of the states
-    // is rounding, but not of outputs: a linear motion is never bisected for these.
-    const bool isOfOutputs = limit.kind == FlowCause::Kind::rounding && run.needsDegree();
-    if ((limit.isNone() && factor > 1) || isOfOutputs)
-      limit = {isInVain || isOfOutputs ? FlowCause::Kind::vain : FlowCause::Kind::rounds, "",
-               (question.options.degree >= 0 ? question.options.degree
-                : run.needsDegree()          ? run.outputDegree()
-                                             : run.degree()) +
-                   2};
-    addTo(best, looseness, std::move(tube), own);
-    if (round.isLast || (reached == question.horizon && own <= question.options.enough)) break;
-    // Of what has lost its ξ to jumps all that is left over counts, which smaller thresholds do not make less: first
-    // what slides is bisected, of a whole result and with the same thresholds.
-    const double share = round.slideShare > 0 ? round.slideShare / 4 : task.aim();
-    const bool isOfSlides =
-        !weighsAnew && reached == question.horizon && factor > 1 && run.slideLoss() > share && task.bisectsForWidth();
-    isAlike = !weighsAnew && !isOfSlides;
-    tightened = factor;
-    if (weighsAnew) continue;  // with other weights
-    if (isOfSlides) {
-      round.slideShare = share;
-      continue;
-    }
-    if (mayRaise && !isInVain) {
-      ++round.richer;
-    } else if (factor > 1 && !isInVain) {
-      const double hardly = reached < question.horizon ? 0.001 : 0.2;  // an early end says less of what was to blame
-      if (run.timeShare() < 1 - hardly) {
-        // Below a threshold that was nowhere met lies what there was.
-        const double hidden = run.hiddenDefect(reached);
-        round.tighter *= factor * (hidden > 0 ? std::clamp(task.shares.truncation / hidden, 1.0, mostHidden) : 1.0);
-      }
-      // The greatest share is of the whole motion; where less truncation helped nowhere, it was not to blame.
-      if (run.timeShare() > hardly || isNoBetter) round.finer *= factor;
-    } else if (run.isAbandoned()) {
-      round.isLast = true;  // the same once more, as far as it comes
-    } else {
-      break;
-    }
-  }
+  Rounds rounds(question, box, levels, weighing, spentBefore);
+  rounds.follow(best, looseness);
+  FlowCause limit = rounds.limit();
   const bool isSingle = question.embed(box).symbols == 0;
   if (limit.isNone() && isSingle) {  // of what varies in time alone one run is made, by the tightness that is asked for
     std::array<char, 48> smaller{};
@@ -398,9 +446,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   }
   const double work = question.budget.spent - spentBefore;
   best = withPlainDegrees(question, box, levels, weighing.scales(), std::move(best), limit, work, looseness);
-  FlowRun::charge(best, weighing.cpuSeconds());
-  FlowRun::explain(best, question.options, limit);
-  return best;
+  return finished(limit);
 }
 
 }  // namespace gamut

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "analyses/flow/column_kernels.hpp"
@@ -172,10 +173,18 @@ void changeDegree(FlowSet& set, const Monomials& from, const Monomials& to, int 
   set.generators = std::move(generators);
 }
 
-bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, int frameDegree) {
+namespace {
+
+/// Principal axes of C (r + Γs), columns, and half-widths along them, in units of the states.
+struct PrincipalAxes {
+  Eigen::MatrixXd axes;
+  Eigen::VectorXd half, unit;
+};
+
+std::optional<PrincipalAxes> principalAxesOf(const FlowSet& set) {
   using Matrix = Eigen::MatrixXd;
-  const int n = static_cast<int>(set.R.size()), N = from.count(), newN = to.count();
-  std::vector<double> total, p(at(n * newN), 0.0);
+  const int n = static_cast<int>(set.R.size());
+  std::vector<double> total;
   totalRadius(set, total);
   // H: the directions of C (r + Γs), of every power of ξ by themselves; its entries are off by n roundings, at most n u
   // |C| Σ|Γ|.
@@ -192,7 +201,7 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
   const Eigen::VectorXd rounding = inverse.asDiagonal() * ((n + 1) * bounds::unit * (C.cwiseAbs() * radius));
   const Matrix U = Eigen::SelfAdjointEigenSolver<Matrix>(H * H.transpose()).eigenvectors();
   const double phi = orthogonalityDefect(U);
-  if (!(phi < 0.5)) return false;
+  if (!(phi < 0.5)) return std::nullopt;
   // |U⁻¹H_j s_j| summed: the half-widths along the axes; the product UᵀH has n roundings an entry.
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(H.cols());
   Eigen::VectorXd half = (U.transpose() * H).cwiseAbs() * ones +
@@ -200,6 +209,27 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
                          U.cwiseAbs().transpose() * rounding;
   half.array() += phi / (1 - phi) * half.maxCoeff();
   half *= bounds::up;
+  return PrincipalAxes{U, half, unit};
+}
+
+/// Inputs as they are in the axes of the states, C the identity: C Γ, n roundings an entry.
+void reframe(FlowSet& set, const Eigen::MatrixXd& C, std::vector<double>& columns) {
+  const int n = static_cast<int>(set.R.size());
+  const Eigen::Map<const Eigen::MatrixXd> before(columns.data(), n, static_cast<int>(columns.size()) / n);
+  const Eigen::MatrixXd driven = C * before;
+  const Eigen::VectorXd rounded =
+      (n + 1) * bounds::unit * (C.cwiseAbs() * (before.cwiseAbs() * Eigen::VectorXd::Ones(before.cols())));
+  for (int i = 0; i < n; ++i) set.W[at(i)] = (set.W[at(i)] + rounded(i)) * bounds::up;
+  columns.assign(driven.data(), driven.data() + driven.size());
+}
+
+}  // namespace
+
+bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, int frameDegree) {
+  const int n = static_cast<int>(set.R.size()), N = from.count(), newN = to.count();
+  const std::optional<PrincipalAxes> principal = principalAxesOf(set);
+  if (!principal) return false;
+  std::vector<double> p(at(n * newN), 0.0);
   for (int i = 0; i < n; ++i) {
     double dropped = 0;
     for (int g = 0; g < N; ++g)
@@ -214,7 +244,7 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
   for (int i = 0; i < n; ++i) {
     double rounded = 0;
     for (int j = 0; j < n; ++j) {
-      const double coefficient = U(i, j) * half(j) * unit(i);  // one rounding
+      const double coefficient = principal->axes(i, j) * principal->half(j) * principal->unit(i);  // one rounding
       p[at(i * newN + to.linear(from.symbols() + j))] = coefficient;
       rounded += bounds::unit * std::fabs(coefficient);
     }
@@ -222,23 +252,15 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
   }
   changeMonomials(set.ahead, from, to);
   set.p = std::move(p);
-  const Matrix oldFrame = C;
+  const Eigen::MatrixXd C =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(set.C.data(), n, n);
+  reframe(set, C, set.inputs);
+  for (std::vector<double>& columns : set.inputsOfXi) reframe(set, C, columns);
   set.C.assign(at(n * n), 0.0);
   for (int i = 0; i < n; ++i) set.C[at(i * n + i)] = 1;
   set.R.assign(at(n), 0.0);
   set.generators.clear();
   set.powers = at(to.countUpTo(frameDegree));
-  // Inputs are as they were, in the new frame: C Γ, n roundings an entry.
-  const auto reframe = [&](std::vector<double>& columns) {
-    const Eigen::Map<const Matrix> before(columns.data(), n, static_cast<int>(columns.size()) / n);
-    const Matrix driven = oldFrame * before;
-    const Eigen::VectorXd rounded =
-        (n + 1) * bounds::unit * (oldFrame.cwiseAbs() * (before.cwiseAbs() * Eigen::VectorXd::Ones(before.cols())));
-    for (int i = 0; i < n; ++i) set.W[at(i)] = (set.W[at(i)] + rounded(i)) * bounds::up;
-    columns.assign(driven.data(), driven.data() + driven.size());
-  };
-  reframe(set.inputs);
-  for (std::vector<double>& columns : set.inputsOfXi) reframe(columns);
   return true;
 }
 

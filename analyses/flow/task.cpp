@@ -80,8 +80,15 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   varying = parametersOf(options.varying);
   mayGoOwnWays =
       varying.empty() && !dependsOnTime(motion) && !dependsOnTime(outputs) && !dependsOnTime(options.aside.values);
+  setTimes(question.outputTimes);
+  setLayouts(round);
+  setThresholds(round);
+}
+
+/// The output times, the quantum of time, and where steps end besides.
+void FlowTask::setTimes(const std::vector<double>& outputTimes) {
   times.push_back(0.0);
-  for (double time : question.outputTimes)
+  for (double time : outputTimes)
     if (time > times.back()) times.push_back(time);
   if (horizon > times.back()) times.push_back(horizon);
   const FlowAside& aside = options.aside;
@@ -100,6 +107,9 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   std::ranges::sort(ends);
   const auto repeated = std::ranges::unique(ends);
   ends.erase(repeated.begin(), repeated.end());
+}
+
+void FlowTask::setLayouts(const FlowRound& round) {
   std::vector<int> weights(at(embedding.symbols), 1);
   if (!round.emphasis.weights.empty()) std::ranges::remove_copy(round.emphasis.weights, weights.begin(), 0);
   active = static_cast<int>(std::ranges::count(weights, 1));
@@ -120,8 +130,12 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
     const int frame = std::min(expanded->degree(), embedding.symbols == 0 ? 1 : expanded->weight(embedding.symbols));
     layouts.push_back({std::move(expanded), frame, true});
   }
-  // Bisection is cheap for one symbol and dear for several: with these, begin loosely; and with many, whose polynomials
-  // are long, shorter steps of a lower order fill fewer of their grades.
+}
+
+/// What steps may add, and the order that goes with it. Bisection is cheap for one symbol and dear for several: with
+/// these, begin loosely; and with many, whose polynomials are long, shorter steps of a lower order fill fewer of their
+/// grades.
+void FlowTask::setThresholds(const FlowRound& round) {
   const int count = std::min(embedding.symbols, 4);
   static constexpr double firstDefect[] = {1e-8, 1e-8, 1e-5, 4e-4, 1e-2};
   static constexpr double firstTolerance[] = {0, 1e-12, 1e-10, 1e-10, 1e-8};

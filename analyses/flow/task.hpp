@@ -117,6 +117,11 @@ struct FlowTask {
   TimeKinks timeKinks;                       // of `differentiated`
   std::shared_ptr<const FlowScales> scales;  // FlowRound
   std::vector<double> ends;                  // of steps besides: next to kinks in time, of outputs too; rising
+
+ private:
+  void setTimes(const std::vector<double>& outputTimes);
+  void setLayouts(const FlowRound& round);
+  void setThresholds(const FlowRound& round);
 };
 
 }  // namespace gamut
