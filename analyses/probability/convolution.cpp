@@ -83,6 +83,22 @@ void multiply(Numbers& into, std::size_t i, const std::pair<double, double>& by)
   into.re[i] = real;
 }
 
+/// Where the sum begins, on both sides; returns how long it is.
+std::size_t startSum(const std::vector<GridBounds>& parts, const std::vector<GridMasses>& exact, GridBounds& sum) {
+  std::size_t length = 1;
+  for (const GridBounds& part : parts) {
+    sum.below.first += part.below.first;
+    sum.above.first += part.above.first;
+    length += std::max(part.below.mass.size(), part.above.mass.size()) - 1;
+  }
+  for (const GridMasses& part : exact) {
+    sum.below.first += part.first;
+    sum.above.first += part.first;
+    length += part.mass.size() - 1;
+  }
+  return length;
+}
+
 }  // namespace
 
 /// A transform is off by no more than ε = t η / (1 - t η) of its 2-norm, η <= μ + γ4 (√2 + μ) < μ + 6 u with roots off
@@ -92,17 +108,7 @@ void multiply(Numbers& into, std::size_t i, const std::pair<double, double>& by)
 /// that in the 1-norm.
 GridSum sumOf(const std::vector<GridBounds>& parts, const std::vector<GridMasses>& exact) {
   GridSum result;
-  std::size_t length = 1;
-  for (const GridBounds& part : parts) {
-    result.sum.below.first += part.below.first;
-    result.sum.above.first += part.above.first;
-    length += std::max(part.below.mass.size(), part.above.mass.size()) - 1;
-  }
-  for (const GridMasses& part : exact) {
-    result.sum.below.first += part.first;
-    result.sum.above.first += part.first;
-    length += part.mass.size() - 1;
-  }
+  const std::size_t length = startSum(parts, exact, result.sum);
   if (parts.size() == 1 && exact.empty()) return {parts.front(), 0};
   std::size_t size = 1;
   int t = 0;

@@ -73,6 +73,30 @@ class Curving {
     std::vector<std::pair<std::size_t, int>> powers;
   };
 
+  static void add(std::vector<double>& f, int power, double c) {
+    if (c == 0) return;
+    f.resize(std::max(f.size(), at(power) + 1), 0.0);
+    f[at(power)] += c;
+  }
+
+  /// Takes by·L^n off the sum; returns its size. Terms of L^n that the polynomial does not have are left as well, so
+  /// all of them must be there.
+  double subtract(int n, double by, CurvedSum& sum) const {
+    double all = 0, there = 0;
+    for (const double a : linear_) all += std::fabs(a);
+    all = std::pow(all, n);
+    for (std::size_t l = 0; l < linear_.size(); ++l) {
+      const double own = std::pow(linear_[l], n);
+      there += std::fabs(own);
+      if (own != 0) add(sum.f[l], n, -by * own);
+    }
+    for (const Term& term : terms_)
+      if (term.isMixed && term.degree == n) there += std::fabs(term.weight);
+    const double missing = std::fabs(by) * std::max(0.0, all - there * (1 - 0x1p-40));
+    sum.down += missing, sum.up += missing;
+    return std::fabs(by) * all;
+  }
+
   CurvedSum with(const std::vector<double>& curve) const {
     CurvedSum sum;
     sum.f.resize(isOwn_.size());
@@ -80,16 +104,10 @@ class Curving {
     sum.constant = c_.empty() ? 0.0 : c_[0];
     const auto curveOf = [&](int n) { return at(n) < curve.size() ? curve[at(n)] : 0.0; };
     double norm = std::fabs(sum.constant), length = 0, beside = 0;  // Σ|a|, Σ|u|
-    const auto add = [&](std::size_t l, int power, double c) {
-      if (c == 0) return;
-      std::vector<double>& own = sum.f[l];
-      own.resize(std::max(own.size(), at(power) + 1), 0.0);
-      own[at(power)] += c;
-    };
     for (const Term& term : terms_) {
       norm += std::fabs(term.c);
       if (!term.isMixed) {
-        add(term.powers[0].first, term.powers[0].second, term.c);
+        add(sum.f[term.powers[0].first], term.powers[0].second, term.c);
         continue;
       }
       const double left = term.c - curveOf(term.degree) * term.weight, size = std::fabs(left);
@@ -98,22 +116,7 @@ class Curving {
       for (const auto& [l, power] : term.powers)
         if (l < sum.mixedOf.size()) sum.mixedOf[l] += size;
     }
-    // Terms of L^n that the polynomial does not have are left as well, so all of them must be there.
-    for (int n = 2; n < static_cast<int>(curve.size()); ++n) {
-      double all = 0, there = 0;
-      for (const double a : linear_) all += std::fabs(a);
-      all = std::pow(all, n);
-      for (std::size_t l = 0; l < linear_.size(); ++l) {
-        const double own = std::pow(linear_[l], n);
-        there += std::fabs(own);
-        if (own != 0) add(l, n, -curveOf(n) * own);
-      }
-      for (const Term& term : terms_)
-        if (term.isMixed && term.degree == n) there += std::fabs(term.weight);
-      const double missing = std::fabs(curveOf(n)) * std::max(0.0, all - there * (1 - 0x1p-40));
-      sum.down += missing, sum.up += missing;
-      norm += std::fabs(curveOf(n)) * all;
-    }
+    for (std::size_t n = 2; n < curve.size(); ++n) norm += subtract(static_cast<int>(n), curve[n], sum);
     for (std::size_t l = 0; l < linear_.size(); ++l) {
       length += std::fabs(linear_[l]);
       for (std::size_t n = 2; n < sum.f[l].size(); ++n) beside += std::fabs(sum.f[l][n]);

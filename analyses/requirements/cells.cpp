@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
+#include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
@@ -238,11 +240,9 @@ std::vector<std::unique_ptr<Cell>> Cells::halves(const Cell& cell) {
   const std::vector<int> symbols = symbolsOf(cell);
   std::vector<std::unique_ptr<Cell>> both;
   if (symbols.empty()) return both;
-  const std::size_t l = at(symbols.front());
   for (const double side : {-0.5, 0.5}) {
     FlowPart half = cell.part_;
-    half.centre[l] += side * half.half[l];
-    half.half[l] *= 0.5;
+    halve(half.centre, half.half, symbols.front(), side);
     both.push_back(within(cell, half));
   }
   return both;
@@ -418,47 +418,50 @@ std::optional<Cells::Form> Cells::formOf(const Cell& cell, std::size_t place, st
   return form;
 }
 
-/// Of several margins that must all be above zero, the least is above slope·η + min_j (constant_j - down_j - Σ|slope_j
-/// - slope|), with the slope of the one that comes lowest.
-CellPlanes Cells::planes(const Cell& cell) const {
-  const bool isAlways = question_.when == CellQuestion::When::always;
-  struct Bounded {
-    Form form;
-    double from, to;  // constant and what comes to it
-  };
-  const auto range = [](const Form& form) {
+/// A margin's form, and between what it is without its slope.
+struct Cells::Bounded {
+  Form form;
+  double from, to;
+
+  double slopes() const {
     double sum = 0;
     for (const double slope : form.slope) sum += std::fabs(slope);
     return sum;
-  };
-  /// A plane below all (sign 1), or above all (-1).
-  const auto beside = [&](const std::vector<Bounded>& forms, int sign, std::vector<double>& slope, double& constant) {
-    const auto extreme = [&](const Bounded& b) { return sign > 0 ? b.from - range(b.form) : -b.to - range(b.form); };
-    const Bounded& lowest = *std::ranges::min_element(forms, {}, extreme);
-    slope = lowest.form.slope;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Bounded& b : forms) {
-      double apart = 0;
-      for (std::size_t l = 0; l < slope.size(); ++l) apart += std::fabs(b.form.slope[l] - slope[l]);
-      least = std::min(least, subDown(sign > 0 ? b.from : -b.to, apart * bounds::up));
-    }
-    constant = sign * least;
-  };
-  CellPlanes planes;
-  const auto boundedOf = [&](std::size_t local, std::size_t margin, const Interval& sag) -> std::optional<Bounded> {
-    const std::optional<Form> form = formOf(cell, local, margin);
-    if (!form || !isBounded(sag)) return std::nullopt;
-    planes.rest = std::max(planes.rest, 2 * form->radius + width(sag));
-    return Bounded{*form, subDown(form->constant, subUp(form->down, sag.lower())),
-                   addUp(form->constant, addUp(form->up, sag.upper()))};
-  };
-  // Throughout: all chords.
-  std::vector<Bounded> throughout;
-  bool isKnown = isAlways || question_.margins.size() == 1;
+  }
+};
+
+/// Of a margin with a sag; nothing where the form is not known.
+std::optional<Cells::Bounded> Cells::boundedOf(const Cell& cell, std::size_t local, std::size_t margin,
+                                               const Interval& sag, CellPlanes& planes) const {
+  const std::optional<Form> form = formOf(cell, local, margin);
+  if (!form || !isBounded(sag)) return std::nullopt;
+  planes.rest = std::max(planes.rest, 2 * form->radius + width(sag));
+  return Bounded{*form, subDown(form->constant, subUp(form->down, sag.lower())),
+                 addUp(form->constant, addUp(form->up, sag.upper()))};
+}
+
+/// A plane below all margins (sign 1), or above all (-1): of several that must all be above zero, the least is above
+/// slope·η + min_j (constant_j - down_j - Σ|slope_j - slope|), with the slope of the one that comes lowest.
+std::pair<std::vector<double>, double> Cells::planeBeside(const std::vector<Bounded>& margins, int sign) {
+  const auto extreme = [&](const Bounded& b) { return sign > 0 ? b.from - b.slopes() : -b.to - b.slopes(); };
+  const std::vector<double>& slope = std::ranges::min_element(margins, {}, extreme)->form.slope;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Bounded& b : margins) {
+    double apart = 0;
+    for (std::size_t l = 0; l < slope.size(); ++l) apart += std::fabs(b.form.slope[l] - slope[l]);
+    least = std::min(least, subDown(sign > 0 ? b.from : -b.to, apart * bounds::up));
+  }
+  return {slope, sign * least};
+}
+
+/// Of all chords; nothing unless a form of each is known.
+std::vector<Cells::Bounded> Cells::throughout(const Cell& cell, CellPlanes& planes) const {
+  std::vector<Bounded> all;
+  bool isKnown = question_.when == CellQuestion::When::always || question_.margins.size() == 1;
   const auto include = [&](std::size_t local, std::size_t margin, const Interval& sag) {
-    const std::optional<Bounded> bounded = boundedOf(local, margin, sag);
+    const std::optional<Bounded> bounded = boundedOf(cell, local, margin, sag, planes);
     isKnown = isKnown && bounded;
-    if (bounded) throughout.push_back(*bounded);
+    if (bounded) all.push_back(*bounded);
   };
   for (std::size_t i = 0; i < question_.margins.size(); ++i) {
     for (const Cell::Chord& chord : cell.chords_)
@@ -468,33 +471,37 @@ CellPlanes Cells::planes(const Cell& cell) const {
       for (const Cell::Moment& moment : cell.moments_)
         for (const std::size_t local : moment.snapshots) include(local, i, Interval(0.0));
   }
-  if (isKnown && !throughout.empty())
-    isAlways ? beside(throughout, 1, planes.met, planes.metAbove)
-             : beside(throughout, -1, planes.violated, planes.violatedBelow);
+  return isKnown ? all : std::vector<Bounded>();
+}
+
+CellPlanes Cells::planes(const Cell& cell) const {
+  const bool isAlways = question_.when == CellQuestion::When::always;
+  CellPlanes planes;
+  if (const std::vector<Bounded> all = throughout(cell, planes); !all.empty()) {
+    if (isAlways)
+      std::tie(planes.met, planes.metAbove) = planeBeside(all, 1);
+    else
+      std::tie(planes.violated, planes.violatedBelow) = planeBeside(all, -1);
+  }
   // Once: the output time that decides most.
   double best = -std::numeric_limits<double>::infinity();
   for (const Cell::Moment& moment : cell.moments_) {
     if (moment.snapshots.size() != 1) continue;
     std::vector<Bounded> margins;
     for (std::size_t i = 0; i < question_.margins.size(); ++i)
-      if (const auto bounded = boundedOf(moment.snapshots[0], i, Interval(0.0))) margins.push_back(*bounded);
+      if (const auto bounded = boundedOf(cell, moment.snapshots[0], i, Interval(0.0), planes))
+        margins.push_back(*bounded);
     if (margins.size() != question_.margins.size()) continue;
-    if (isAlways) {
-      for (const Bounded& margin : margins)
-        if (-margin.to > best) {
-          best = -margin.to;
-          planes.violated = margin.form.slope;
-          planes.violatedBelow = margin.to;
-        }
-    } else {
-      std::vector<double> slope;
-      double constant = 0;
-      beside(margins, 1, slope, constant);
-      if (constant > best) {
-        best = constant;
-        planes.met = std::move(slope);
-        planes.metAbove = constant;
+    for (std::size_t i = 0; i < margins.size() && isAlways; ++i)
+      if (-margins[i].to > best) {
+        best = -margins[i].to;
+        planes.violated = margins[i].form.slope;
+        planes.violatedBelow = margins[i].to;
       }
+    if (isAlways) continue;
+    if (auto [slope, constant] = planeBeside(margins, 1); constant > best) {
+      best = planes.metAbove = constant;
+      planes.met = std::move(slope);
     }
   }
   return planes;

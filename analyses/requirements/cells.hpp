@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "analyses/flow/models.hpp"
@@ -132,6 +133,11 @@ class Cells {
   std::optional<Separated> separated(const Cell& cell, std::size_t local, std::size_t margin,
                                      const Interval& sag) const;
   std::optional<Form> formOf(const Cell& cell, std::size_t local, std::size_t margin) const;
+  struct Bounded;
+  std::optional<Bounded> boundedOf(const Cell& cell, std::size_t local, std::size_t margin, const Interval& sag,
+                                   CellPlanes& planes) const;
+  static std::pair<std::vector<double>, double> planeBeside(const std::vector<Bounded>& margins, int sign);
+  std::vector<Bounded> throughout(const Cell& cell, CellPlanes& planes) const;
   void narrow(Cell::Local& local, int l, double middle, double half) const;
   Outcome outcomeOf(const std::vector<Interval>& margins) const;
   Outcome outcomeOf(const Cell& cell, const Cell::Chord& chord) const;

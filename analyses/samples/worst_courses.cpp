@@ -298,17 +298,47 @@ bool areSame(const std::vector<double>& a, const std::vector<double>& b, std::si
   return true;
 }
 
+/// Whether some quantity may switch at any time.
+bool mayAnySwitch(const UncertainMotion& system) {
+  for (std::size_t i = 0; i < system.switching.quantities.size(); ++i)
+    if (std::isinf(system.switching.rates[i]) && canSwitch(system.uncertain[system.switching.quantities[i]].range))
+      return true;
+  return false;
+}
+
+std::vector<Goal> goalsOf(const Motion& motion, const std::vector<std::size_t>& outputs) {
+  std::vector<Goal> goals;
+  const std::size_t last = motion.times.size() - 1;
+  const std::size_t first = motion.times.front() > 0 ? 0 : 1, count = motion.times.size() - first;
+  for (const std::size_t place : spreadOver(count))
+    for (const std::size_t output : outputs)
+      for (const double sign : {1.0, -1.0}) goals.push_back({output, last - place, sign});
+  return goals;
+}
+
+/// The best of courses that follow from each other, each the worst of the motion linear along the one before.
+Candidate improved(Sweeper& sweeper, Linear& linear, const Goal& goal, Candidate candidate, double horizon) {
+  Candidate best;
+  double greatest = -std::numeric_limits<double>::infinity();
+  for (int sweep = 0; sweep <= mostSweeps && candidate.isAny && sweeper.follow(candidate.course); ++sweep) {
+    const double value = goal.sign * sweeper.outputsAt(goal.row, candidate.course)[goal.output];
+    if (!(value > greatest)) break;
+    greatest = value;
+    best = candidate;
+    if (sweep == mostSweeps || !sweeper.linearise(candidate.course, linear)) break;
+    Candidate better = sweeper.worst(linear, goal, candidate.course);
+    if (better.isAny && areAlike(better.course, candidate.course, horizon)) break;
+    candidate = std::move(better);
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<WorstCourse> worstCourses(const UncertainMotion& system, const WorstCourseOptions& options) {
   const Motion& motion = system.switching.motion;
-  const auto isFree = [&](std::size_t i) {
-    return std::isinf(system.switching.rates[i]) && canSwitch(system.uncertain[system.switching.quantities[i]].range);
-  };
-  bool isAnyFree = false;
-  for (std::size_t i = 0; i < system.switching.quantities.size(); ++i) isAnyFree = isAnyFree || isFree(i);
   const auto n = static_cast<std::size_t>(motion.f.states()), k = static_cast<std::size_t>(motion.f.parameters());
-  if (!isAnyFree || !(motion.horizon() > 0) || !jumpsOf(motion.forSamples()).empty()) return {};
+  if (!mayAnySwitch(system) || !(motion.horizon() > 0) || !jumpsOf(motion.forSamples()).empty()) return {};
   const std::size_t mostHere = mostEntries / (n * (n + k));
   const auto wanted =
       static_cast<std::size_t>(std::clamp(stepsOfTurn * options.fastest * motion.horizon(),
@@ -323,13 +353,8 @@ std::vector<WorstCourse> worstCourses(const UncertainMotion& system, const Worst
   if (!base.follow(nominal)) return {};
   if (!base.linearise(nominal, atNominal)) return {};
 
-  std::vector<Goal> goals;
+  const std::vector<Goal> goals = goalsOf(motion, options.outputs);
   const std::size_t last = motion.times.size() - 1;
-  const std::size_t first = motion.times.front() > 0 ? 0 : 1, count = motion.times.size() - first;
-  for (const std::size_t place : spreadOver(count))
-    for (const std::size_t output : options.outputs)
-      for (const double sign : {1.0, -1.0}) goals.push_back({output, last - place, sign});
-
   const auto isCancelled = [&] { return options.cancelled != nullptr && *options.cancelled; };
   std::vector<WorstCourse> found;
   std::optional<bool> isAffine;
@@ -351,22 +376,7 @@ std::vector<WorstCourse> worstCourses(const UncertainMotion& system, const Worst
     if (isAffine && !*isAffine) {
       forEachIndex(options.jobs, candidates.size(), options.cancelled, [&] {
         return [&, sweeper = Sweeper(system, options, grid, dense), linear = Linear()](std::size_t i) mutable {
-          const Goal& goal = goals[next + i];
-          std::optional<WorstCourse> best;
-          double greatest = -std::numeric_limits<double>::infinity();
-          Candidate candidate = candidates[i];
-          for (int sweep = 0; sweep <= mostSweeps && candidate.isAny && sweeper.follow(candidate.course); ++sweep) {
-            const double value = goal.sign * sweeper.outputsAt(goal.row, candidate.course)[goal.output];
-            if (!(value > greatest)) break;
-            greatest = value;
-            best = candidate.course;
-            if (sweep == mostSweeps || !sweeper.linearise(candidate.course, linear)) break;
-            Candidate better = sweeper.worst(linear, goal, candidate.course);
-            if (better.isAny && areAlike(better.course, candidate.course, motion.horizon())) break;
-            candidate = std::move(better);
-          }
-          candidates[i].isAny = best.has_value();
-          if (best) candidates[i].course = std::move(*best);
+          candidates[i] = improved(sweeper, linear, goals[next + i], std::move(candidates[i]), motion.horizon());
         };
       });
       if (isCancelled()) break;

@@ -94,6 +94,123 @@ struct SurrogateEvaluator::Group {
 SurrogateEvaluator::~SurrogateEvaluator() = default;
 SurrogateEvaluator::SurrogateEvaluator(SurrogateEvaluator&&) noexcept = default;
 
+/// What is packed, as it is evaluated. Throws std::invalid_argument where the numbers make no surrogate.
+class SurrogateEvaluator::Unpacking {
+ public:
+  Unpacking(const PackedSurrogate& packed, const std::vector<std::size_t>& outputs)
+      : packed_(packed), outputs_(outputs), n_(packed.centre.size()) {
+    const std::size_t parts = packed.row.size();
+    require(parts > 0 && packed.first.size() % parts == 0);
+    all_ = packed.first.size() / parts;
+    terms_ = n_ == 0 ? 1 : packed.exponent.size() / n_;
+    for (const std::size_t o : outputs) require(o < all_);
+  }
+
+  /// The output time of number `number` among those that are evaluated: with the group before, or a new one.
+  void addRow(std::size_t number, std::size_t row, std::vector<Group>& groups) {
+    const auto [begin, end] = std::ranges::equal_range(packed_.row, static_cast<double>(row));
+    if (begin == end) throw std::invalid_argument("no polynomials of that time are kept");
+    const std::size_t from = static_cast<std::size_t>(begin - packed_.row.begin()),
+                      until = static_cast<std::size_t>(end - packed_.row.begin());
+    if (!joins(groups, from, until)) {
+      groups.push_back({number, 0, {}});
+      for (std::size_t p = from; p < until; ++p)
+        groups.back().parts.push_back(
+            {slice(packed_.partCentre, p), slice(packed_.partHalf, p), packed_.firstTerm[p], {}, {}, {}});
+    }
+    ++groups.back().rows;
+    for (std::size_t p = from; p < until; ++p) addOutputs(p, groups.back().parts[p - from]);
+  }
+
+ private:
+  static void require(bool holds) {
+    if (!holds) throw std::invalid_argument("the polynomials of its outputs make no sense");
+  }
+  std::vector<double> slice(const std::vector<double>& numbers, std::size_t place) const {
+    const auto first = numbers.begin() + static_cast<std::ptrdiff_t>(place * n_);
+    return {first, first + static_cast<std::ptrdiff_t>(n_)};
+  }
+  std::size_t firstTerm(std::size_t part) const { return static_cast<std::size_t>(packed_.firstTerm[part]); }
+
+  /// The same parts in the same order, and not so many times that the matrices outgrow the caches?
+  bool joins(const std::vector<Group>& groups, std::size_t from, std::size_t until) const {
+    constexpr std::size_t mostTogether = 512;
+    if (groups.empty() || groups.back().parts.size() != until - from ||
+        groups.back().rows * outputs_.size() >= mostTogether)
+      return false;
+    for (std::size_t p = from; p < until; ++p) {
+      const Group::Part& before = groups.back().parts[p - from];
+      if (before.centre != slice(packed_.partCentre, p) || before.half != slice(packed_.partHalf, p) ||
+          before.firstTerm != packed_.firstTerm[p])
+        return false;
+    }
+    return true;
+  }
+
+  /// How monomials follow from each other: `count` of them from the first on.
+  std::vector<Step> stepsFrom(std::size_t first, std::size_t count) {
+    require(first + count <= terms_);
+    auto& numbers = known_[first];
+    std::vector<Step> steps;
+    for (std::size_t t = 0; t < count; ++t) {
+      std::vector<double> e = slice(packed_.exponent, first + t);
+      numbers.try_emplace(e, t);
+      const std::size_t q =
+          static_cast<std::size_t>(std::ranges::find_if(e, [](double x) { return x > 0; }) - e.begin());
+      require((t == 0) == (q == n_));
+      if (t == 0) continue;
+      e[q] -= 1;
+      const auto found = numbers.find(e);
+      require(found != numbers.end() && found->second < t);
+      steps.push_back({found->second, q});
+    }
+    return steps;
+  }
+
+  /// The greatest degree of the first monomials of a part.
+  double degreeOf(std::size_t part, std::size_t count) const {
+    double degree = 0;
+    for (std::size_t t = 0; t < count; ++t) {
+      double sum = 0;
+      for (std::size_t q = 0; q < n_; ++q) sum += packed_.exponent[(firstTerm(part) + t) * n_ + q];
+      degree = std::max(degree, sum);
+    }
+    return degree;
+  }
+
+  void addOutputs(std::size_t p, Group::Part& part) {
+    std::size_t count = 1;
+    for (const std::size_t o : outputs_) count = std::max(count, static_cast<std::size_t>(packed_.count[p * all_ + o]));
+    if (count > part.steps.size() + 1) part.steps = stepsFrom(firstTerm(p), count);
+    const Eigen::Index columns = static_cast<Eigen::Index>(part.steps.size() + 1), before = part.c.rows();
+    part.c.conservativeResizeLike(Eigen::MatrixXd::Zero(before + static_cast<Eigen::Index>(outputs_.size()), columns));
+    double finest = 1;
+    for (const double half : part.half) finest = std::min(finest, half);
+    const double degree = degreeOf(p, count);
+    for (std::size_t k = 0; k < outputs_.size(); ++k) {
+      const std::size_t at = p * all_ + outputs_[k];
+      const auto first = static_cast<std::size_t>(packed_.first[at]), own = static_cast<std::size_t>(packed_.count[at]);
+      require(first + own <= packed_.coefficient.size());
+      double norm = 0;
+      for (std::size_t t = 0; t < own; ++t) {
+        const double c = packed_.coefficient[first + t];
+        part.c(before + static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(t)) = c;
+        norm += std::fabs(c);
+      }
+      // η is off by 4 u (1 + 1/half): its quotient by 2 u, the difference from the part's middle and its quotient by
+      // 1 u each; a monomial by `degree` times that and as many roundings, the sum of n products by (n + 1) u.
+      const double roundings = (degree * (5 + 4 / finest) + static_cast<double>(own) + 2) * bounds::unit;
+      const double error = own == 0 ? infinite : (packed_.radius[at] + roundings * norm) * bounds::up + bounds::tiny;
+      part.error.push_back(std::isnan(error) ? infinite : error);
+    }
+  }
+
+  const PackedSurrogate& packed_;
+  const std::vector<std::size_t>& outputs_;
+  std::size_t n_, all_ = 0, terms_ = 0;
+  std::map<std::size_t, std::map<std::vector<double>, std::size_t>> known_;  // monomials by first term
+};
+
 SurrogateEvaluator::SurrogateEvaluator(const PackedSurrogate& surrogate, const std::vector<std::size_t>& rows,
                                        const std::vector<std::size_t>& outputs)
     : quantities_(surrogate.centre.size()),
@@ -102,107 +219,13 @@ SurrogateEvaluator::SurrogateEvaluator(const PackedSurrogate& surrogate, const s
       centre_(surrogate.centre),
       half_(surrogate.half),
       borders_(quantities_) {
-  const auto require = [](bool holds) {
-    if (!holds) throw std::invalid_argument("the polynomials of its outputs make no sense");
-  };
-  const std::size_t n = quantities_, parts = surrogate.row.size();
-  require(parts > 0 && surrogate.first.size() % parts == 0);
-  const std::size_t all = surrogate.first.size() / parts;
-  const std::size_t terms = n == 0 ? 1 : surrogate.exponent.size() / n;
-  std::map<std::size_t, std::map<std::vector<double>, std::size_t>> known;  // monomials by first term
-  /// How monomials follow from each other: `count` of them from the first on.
-  const auto stepsFrom = [&](std::size_t first, std::size_t count) {
-    require(first + count <= terms);
-    auto& numbers = known[first];
-    std::vector<Step> steps;
-    const auto exponentsOf = [&](std::size_t t) {
-      const auto begin = surrogate.exponent.begin() + static_cast<std::ptrdiff_t>((first + t) * n);
-      return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(n));
-    };
-    for (std::size_t t = 0; t < count; ++t) {
-      std::vector<double> e = exponentsOf(t);
-      numbers.try_emplace(e, t);
-      const std::size_t q =
-          static_cast<std::size_t>(std::ranges::find_if(e, [](double x) { return x > 0; }) - e.begin());
-      if (t == 0) {
-        require(q == n);
-        continue;
-      }
-      require(q < n);
-      e[q] -= 1;
-      const auto found = numbers.find(e);
-      require(found != numbers.end() && found->second < t);
-      steps.push_back({found->second, q});
-    }
-    return steps;
-  };
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const auto [begin, end] = std::ranges::equal_range(surrogate.row, static_cast<double>(rows[r]));
-    if (begin == end) throw std::invalid_argument("no polynomials of that time are kept");
-    const std::size_t from = static_cast<std::size_t>(begin - surrogate.row.begin()),
-                      until = static_cast<std::size_t>(end - surrogate.row.begin());
-    const auto slice = [&](const std::vector<double>& numbers, std::size_t part) {
-      const auto first = numbers.begin() + static_cast<std::ptrdiff_t>(part * n);
-      return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(n));
-    };
-    // The same parts in the same order, and not so many times that the matrices outgrow the caches?
-    constexpr std::size_t mostTogether = 512;
-    bool isAsBefore = !groups_.empty() && groups_.back().parts.size() == until - from &&
-                      groups_.back().rows * outputs_ < mostTogether;
-    for (std::size_t p = from; isAsBefore && p < until; ++p)
-      isAsBefore = groups_.back().parts[p - from].centre == slice(surrogate.partCentre, p) &&
-                   groups_.back().parts[p - from].half == slice(surrogate.partHalf, p) &&
-                   groups_.back().parts[p - from].firstTerm == surrogate.firstTerm[p];
-    if (!isAsBefore) {
-      groups_.push_back({r, 0, {}});
-      for (std::size_t p = from; p < until; ++p)
-        groups_.back().parts.push_back(
-            {slice(surrogate.partCentre, p), slice(surrogate.partHalf, p), surrogate.firstTerm[p], {}, {}, {}});
-    }
-    Group& group = groups_.back();
-    ++group.rows;
-    for (std::size_t p = from; p < until; ++p) {
-      Group::Part& part = group.parts[p - from];
-      std::size_t count = 1;
-      for (const std::size_t o : outputs) {
-        require(o < all);
-        count = std::max(count, static_cast<std::size_t>(surrogate.count[p * all + o]));
-      }
-      if (count > part.steps.size() + 1)
-        part.steps = stepsFrom(static_cast<std::size_t>(surrogate.firstTerm[p]), count);
-      const Eigen::Index columns = static_cast<Eigen::Index>(part.steps.size() + 1), before = part.c.rows();
-      part.c.conservativeResizeLike(Eigen::MatrixXd::Zero(before + static_cast<Eigen::Index>(outputs_), columns));
-      double finest = 1, degree = 0;
-      for (const double half : part.half) finest = std::min(finest, half);
-      for (std::size_t t = 0; t < count; ++t) {
-        double sum = 0;
-        for (std::size_t q = 0; q < n; ++q)
-          sum += surrogate.exponent[(static_cast<std::size_t>(surrogate.firstTerm[p]) + t) * n + q];
-        degree = std::max(degree, sum);
-      }
-      for (std::size_t k = 0; k < outputs_; ++k) {
-        const std::size_t at = p * all + outputs[k];
-        const auto first = static_cast<std::size_t>(surrogate.first[at]),
-                   own = static_cast<std::size_t>(surrogate.count[at]);
-        require(first + own <= surrogate.coefficient.size());
-        double norm = 0;
-        for (std::size_t t = 0; t < own; ++t) {
-          const double c = surrogate.coefficient[first + t];
-          part.c(before + static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(t)) = c;
-          norm += std::fabs(c);
-        }
-        // η is off by 4 u (1 + 1/half): its quotient by 2 u, the difference from the part's middle and its quotient by
-        // 1 u each; a monomial by `degree` times that and as many roundings, the sum of n products by (n + 1) u.
-        const double roundings = (degree * (5 + 4 / finest) + static_cast<double>(own) + 2) * bounds::unit;
-        const double error =
-            own == 0 ? infinite : (surrogate.radius[at] + roundings * norm) * bounds::up + bounds::tiny;
-        part.error.push_back(std::isnan(error) ? infinite : error);
-      }
-      for (std::size_t q = 0; q < n; ++q)
+  Unpacking unpacking(surrogate, outputs);
+  for (std::size_t r = 0; r < rows.size(); ++r) unpacking.addRow(r, rows[r], groups_);
+  for (const Group& group : groups_)
+    for (const Group::Part& part : group.parts)
+      for (std::size_t q = 0; q < quantities_; ++q)
         for (const double border : {part.centre[q] - part.half[q], part.centre[q] + part.half[q]})
           if (std::fabs(border) < 1) borders_[q].push_back(border);
-    }
-  }
   for (std::vector<double>& borders : borders_) {
     std::ranges::sort(borders);
     borders.erase(std::unique(borders.begin(), borders.end()), borders.end());

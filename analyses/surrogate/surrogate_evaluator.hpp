@@ -49,6 +49,7 @@ class SurrogateEvaluator {
  private:
   struct Group;
   class Block;
+  class Unpacking;
   std::size_t quantities_, rows_, outputs_;
   std::vector<double> centre_, half_;
   std::vector<std::vector<double>> borders_;  // [quantity]: ξ inside [-1,1] where parts meet, rising
