@@ -27,6 +27,23 @@
 
 namespace gamut::detail {
 
+/// By Horner's scheme, with 1/n! for n = 3, 5, ... 17 and n = 4, 6, ... 16.
+template <class V>
+GAMUT_INLINE void taylorSeries(const V& z, V& sines, V& cosines) {
+  sines =
+      z * (z * (z * (z * (z * (z * (z * (z * 0x1.952c77030ad4ap-49 - 0x1.ae7f3e733b81fp-41) + 0x1.6124613a86d09p-33) -
+                               0x1.ae64567f544e4p-26) +
+                          0x1.71de3a556c734p-19) -
+                     0x1.a01a01a01a01ap-13) +
+                0x1.1111111111111p-7) -
+           0x1.5555555555555p-3);
+  cosines = z * (z * (z * (z * (z * (z * (z * 0x1.ae7f3e733b81fp-45 - 0x1.93974a8c07c9dp-37) + 0x1.1eed8eff8d898p-29) -
+                                0x1.27e4fb7789f5cp-22) +
+                           0x1.a01a01a01a01ap-16) -
+                      0x1.6c16c16c16c17p-10) +
+                 0x1.5555555555555p-5);
+}
+
 /// s = sin x, c = cos x where `hard` comes out zero; elsewhere (|x| > 2^20, x a NaN, or x so close to a multiple of
 /// pi/2 that the reduction has lost too much) s and c mean nothing. V: double or a vector of doubles.
 template <class V>
@@ -55,20 +72,8 @@ GAMUT_INLINE void sineCosineKernel(const V& x, V& s, V& c, BitsOf<V>& hard) {
   const V tail = (high - r) + d;
 
   const V z = r * r;
-  // 1/n! for n = 3, 5, ... 17 and n = 4, 6, ... 16
-  const V sines =
-      z * (z * (z * (z * (z * (z * (z * (z * 0x1.952c77030ad4ap-49 - 0x1.ae7f3e733b81fp-41) + 0x1.6124613a86d09p-33) -
-                               0x1.ae64567f544e4p-26) +
-                          0x1.71de3a556c734p-19) -
-                     0x1.a01a01a01a01ap-13) +
-                0x1.1111111111111p-7) -
-           0x1.5555555555555p-3);
-  const V cosines =
-      z * (z * (z * (z * (z * (z * (z * 0x1.ae7f3e733b81fp-45 - 0x1.93974a8c07c9dp-37) + 0x1.1eed8eff8d898p-29) -
-                          0x1.27e4fb7789f5cp-22) +
-                     0x1.a01a01a01a01ap-16) -
-                0x1.6c16c16c16c17p-10) +
-           0x1.5555555555555p-5);
+  V sines, cosines;
+  taylorSeries(z, sines, cosines);
   const V half = 0.5 * z;
   const V w = 1.0 - half;
   const V sine = r + (r * sines + tail * w);

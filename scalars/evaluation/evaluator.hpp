@@ -52,7 +52,7 @@ class Evaluator {
   const Tape& tape() const { return tape_; }
 
  private:
-  void run(const std::vector<Instruction>& instructions) {
+  void run(const std::vector<Instruction>& instructions) {  // long: a case an operation, in one loop that keeps `acc`
     using std::abs, std::atan, std::exp, std::log, std::sqrt, std::tanh;
     S* const slots = slot_.data();
     S acc(0.0);

@@ -172,7 +172,8 @@ GAMUT_INLINE void broadcast(V& to, double from) {
 /// An instruction as a case of a switch.
 constexpr int caseOf(TapeOp op, bool isUniform = false) { return 2 * static_cast<int>(op) + (isUniform ? 1 : 0); }
 
-/// Runs the instructions on the block of samples from `sample` on.
+/// Runs the instructions on the block of samples from `sample` on. A case an operation, in one loop that keeps `acc` in
+/// registers: longer than functions should be, and slower in parts.
 template <class V>
 GAMUT_INLINE void runBlock(const PackRun& pack, const Instruction* i, const Instruction* end, int sample) {
   constexpr std::size_t samples = block<V> * lanes<V>;

@@ -334,6 +334,24 @@ class TapeWriter {
         if (isKept[at(i)] != 0) slot_[at(i)] = tape_.keptSlots_++;
   }
 
+  /// The instructions of a step with the slots that they read and write.
+  void complete(const Step& step, const std::vector<std::int32_t>& reads, std::vector<Instruction>& chain) {
+    if (chain.back().op == TapeOp::solution) {
+      chain.back().result = static_cast<int>(tape_.solutions_.size());
+      const LinearSolution& of = solution(step.id);
+      tape_.solutions_.push_back({system_[at(of.matrix)], of.transposed, reads, slotsOf(step.results)});
+    } else if (chain.back().op == TapeOp::factorise) {
+      const LinearMatrix& of = matrix(step.id - count());
+      chain.back().result = system_[at(step.id - count())] = static_cast<int>(tape_.systems_.size());
+      tape_.systems_.push_back({of.kind, of.size, reads, detail::solvingOperations(program_.table(), of)});
+    } else {
+      for (std::size_t part = 0; part < chain.size(); ++part)
+        chain[part].a = reads[2 * part], chain[part].b = reads[2 * part + 1];
+      chain.back().result = slot_[at(step.id)];
+      if (hasTwin(chain.back().op)) chain.back().b = slot_[at(step.id + 1)];
+    }
+  }
+
   /// Gives every value of a section a slot, reused after the value's last read, and writes the instructions.
   std::vector<Instruction> allocate(const std::vector<Step>& steps, bool invariant) {
     const std::vector<int> last = lastReads(steps);
@@ -378,20 +396,7 @@ class TapeWriter {
       const std::vector<std::int32_t> reads = slotsOf(step.reads);
       for (int i : dying[s]) free.push_back(slot_[at(i)]);
       if (!isSolution) takeResults();
-      if (isSolution) {
-        chain.back().result = static_cast<int>(tape_.solutions_.size());
-        const LinearSolution& of = solution(step.id);
-        tape_.solutions_.push_back({system_[at(of.matrix)], of.transposed, reads, slotsOf(step.results)});
-      } else if (chain.back().op == TapeOp::factorise) {
-        const LinearMatrix& of = matrix(step.id - count());
-        chain.back().result = system_[at(step.id - count())] = static_cast<int>(tape_.systems_.size());
-        tape_.systems_.push_back({of.kind, of.size, reads, detail::solvingOperations(program_.table(), of)});
-      } else {
-        for (std::size_t part = 0; part < chain.size(); ++part)
-          chain[part].a = reads[2 * part], chain[part].b = reads[2 * part + 1];
-        chain.back().result = slot_[at(step.id)];
-        if (hasTwin(chain.back().op)) chain.back().b = slot_[at(step.id + 1)];
-      }
+      complete(step, reads, chain);
       for (int i : step.results)  // a sine without its cosine, say, or the reverse: the other is never read
         if (last[at(i)] < 0 && slot_[at(i)] >= tape_.keptSlots_) free.push_back(slot_[at(i)]);
       written.insert(written.end(), chain.begin(), chain.end());

@@ -449,100 +449,156 @@ Program withSignsGiven(const Program& f, const Program& g) {
   return withSigns(recorder, signs, f, g, Unknown::anything);
 }
 
-Program onSides(const Program& f, std::span<const Side> sides) {
-  const bool isAffine = isAffineInSigns(f);
-  const int n = f.states(), k = f.parameters(), jumps = static_cast<int>(sides.size());
-  std::vector<char> isHeld;
-  for (const Side side : sides) isHeld.push_back(static_cast<char>(side == Side::held));
-  if (static_cast<int>(jumpsOf(f).size()) != jumps) throw std::invalid_argument("sides need one for each jump");
-  const Program given = isAffine ? withHeldGiven(f, isHeld) : withSignsGiven(f);
-  Recorder recorder(n, k);
-  std::vector<int> parameters, held;
-  for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));
-  for (int j = 0; j < jumps; ++j) {
-    const Side side = sides[at(j)];
-    const bool isFixed = side != Side::held && side != Side::open;
-    if (side == Side::held) held.push_back(j);
-    parameters.push_back(recorder.constant(isFixed                          ? static_cast<double>(side)
-                                           : isAffine && side == Side::held ? 0.0
-                                                                            : -1.0));
+namespace {
+
+/// f on its sides, while it is written down.
+class SidedMotion {
+ public:
+  SidedMotion(const Program& f, std::span<const Side> sides)
+      : f_(f),
+        sides_(sides),
+        isAffine_(isAffineInSigns(f)),
+        n_(f.states()),
+        k_(f.parameters()),
+        jumps_(static_cast<int>(sides.size())),
+        given_(isAffine_ ? withHeldGiven(f, isHeld(sides)) : withSignsGiven(f)),
+        recorder_(n_, k_),
+        instead_(given_.nodes().size(), -1) {
+    for (int i = 0; i < k_; ++i) parameters_.push_back(recorder_.parameter(i));
+    for (int j = 0; j < jumps_; ++j) {
+      const Side side = sides[at(j)];
+      const bool isFixed = side != Side::held && side != Side::open;
+      if (side == Side::held) held_.push_back(j);
+      parameters_.push_back(recorder_.constant(isFixed                           ? static_cast<double>(side)
+                                               : isAffine_ && side == Side::held ? 0.0
+                                                                                 : -1.0));
+    }
+    // What is held is zero, wherever it stands.
+    for (const int j : held_) instead_[at(given_.outputNodes()[at(n_ + j)])] = recorder_.constant(0.0);
+    outputs_ = outputsWith(parameters_);
   }
-  std::vector<int> instead(given.nodes().size(), -1);  // what is held is zero, wherever it stands
-  for (const int j : held) instead[at(given.outputNodes()[at(n + j)])] = recorder.constant(0.0);
-  const auto outputsWith = [&](const std::vector<int>& values) {
-    const std::vector<int> here = recorder.append(given, values, instead);
+
+  Program write() {
+    giveOpen();
+    hold();
+    followForms();
+    outputs_.resize(at(n_ + jumps_));
+    outputs_.insert(outputs_.end(), parameters_.begin() + k_, parameters_.end());
+    return recorder_.finish(outputs_);
+  }
+
+ private:
+  static std::vector<char> isHeld(std::span<const Side> sides) {
+    std::vector<char> result;
+    for (const Side side : sides) result.push_back(static_cast<char>(side == Side::held));
+    return result;
+  }
+
+  std::vector<int> outputsWith(const std::vector<int>& values) {
+    const std::vector<int> here = recorder_.append(given_, values, instead_);
     std::vector<int> outputs;
-    for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
+    for (const int output : given_.outputNodes()) outputs.push_back(here[at(output)]);
     return outputs;
-  };
-  std::vector<int> outputs = outputsWith(parameters);
-  if (std::ranges::find(sides, Side::open) != sides.end()) {
-    for (int j = 0; j < jumps; ++j)
-      if (sides[at(j)] == Side::open) parameters[at(k + j)] = recorder.sign(outputs[at(n + j)]);
-    const std::vector<int> arguments(outputs.begin() + n, outputs.begin() + n + jumps);
-    outputs = outputsWith(parameters);
-    if (!std::equal(arguments.begin(), arguments.end(), outputs.begin() + n))
+  }
+
+  /// f and all rates, of these outputs.
+  std::vector<int> moved(const std::vector<int>& of) const {
+    std::vector<int> result(of.begin(), of.begin() + n_);
+    result.insert(result.end(), of.begin() + n_ + jumps_, of.begin() + n_ + 2 * jumps_);
+    return result;
+  }
+
+  void giveOpen() {
+    if (std::ranges::find(sides_, Side::open) == sides_.end()) return;
+    for (int j = 0; j < jumps_; ++j)
+      if (sides_[at(j)] == Side::open) parameters_[at(k_ + j)] = recorder_.sign(outputs_[at(n_ + j)]);
+    const std::vector<int> arguments(outputs_.begin() + n_, outputs_.begin() + n_ + jumps_);
+    outputs_ = outputsWith(parameters_);
+    if (!std::equal(arguments.begin(), arguments.end(), outputs_.begin() + n_))
       throw std::invalid_argument("a jump that depends on another one cannot be left open");
   }
-  // What each of those held adds to f and all rates: a step from below to above; of affine f by its product.
-  std::vector<std::vector<int>> steps;
-  std::vector<int> factors;
-  const auto moved = [&](const std::vector<int>& of) {
-    std::vector<int> result(of.begin(), of.begin() + n);
-    result.insert(result.end(), of.begin() + n + jumps, of.begin() + n + 2 * jumps);
-    return result;
-  };
-  auto next = outputs.begin() + n + 2 * jumps;
-  for (const int j : held) {
-    if (isAffine) {
-      factors.push_back(*next++);
-      steps.emplace_back(next, next + n + jumps);
-      next += n + jumps;
-      continue;
+
+  /// What each of those held adds to f and all rates: a step from below to above; of affine f by its product, whose
+  /// factor is told.
+  std::vector<std::vector<int>> stepsOfHeld(std::vector<int>& factors) {
+    std::vector<std::vector<int>> steps;
+    auto next = outputs_.begin() + n_ + 2 * jumps_;
+    for (const int j : held_) {
+      if (isAffine_) {
+        factors.push_back(*next++);
+        steps.emplace_back(next, next + n_ + jumps_);
+        next += n_ + jumps_;
+        continue;
+      }
+      std::vector<int> values = parameters_;
+      values[at(k_ + j)] = recorder_.constant(1.0);
+      const std::vector<int> above = moved(outputsWith(values)), below = moved(outputs_);
+      steps.emplace_back();
+      for (std::size_t o = 0; o < above.size(); ++o) steps.back().push_back(recorder_.sub(above[o], below[o]));
     }
-    std::vector<int> values = parameters;
-    values[at(k + j)] = recorder.constant(1.0);
-    const std::vector<int> above = moved(outputsWith(values)), below = moved(outputs);
-    for (std::size_t o = 0; o < above.size(); ++o) {
-      if (o == 0) steps.emplace_back();
-      steps.back().push_back(recorder.sub(above[o], below[o]));
-    }
+    return steps;
   }
-  const std::vector<int> from = moved(outputs);
-  std::vector<int> shares;
-  if (held.size() == 1) {
-    shares.push_back(recorder.neg(recorder.mul(from[at(n + held[0])], recorder.recip(steps[0][at(n + held[0])]))));
-  } else if (!held.empty()) {
-    LinearMatrix matrix{MatrixKind::general, static_cast<int>(held.size()), {}};
+
+  /// How much of each step makes all rates of those held zero.
+  std::vector<int> sharesOf(const std::vector<std::vector<int>>& steps) {
+    const std::vector<int> from = moved(outputs_);
+    if (held_.empty()) return {};
+    if (held_.size() == 1)
+      return {recorder_.neg(recorder_.mul(from[at(n_ + held_[0])], recorder_.recip(steps[0][at(n_ + held_[0])])))};
+    LinearMatrix matrix{MatrixKind::general, static_cast<int>(held_.size()), {}};
     std::vector<int> rightSide;
-    for (const int j : held) {
-      for (const std::vector<int>& step : steps) matrix.entries.push_back(step[at(n + j)]);
-      rightSide.push_back(recorder.neg(from[at(n + j)]));
+    for (const int j : held_) {
+      for (const std::vector<int>& step : steps) matrix.entries.push_back(step[at(n_ + j)]);
+      rightSide.push_back(recorder_.neg(from[at(n_ + j)]));
     }
-    shares = recorder.solve(recorder.matrix(std::move(matrix)), false, rightSide);
+    return recorder_.solve(recorder_.matrix(std::move(matrix)), false, rightSide);
   }
-  for (std::size_t h = 0; h < held.size(); ++h) {
-    for (int o = 0; o < n; ++o) outputs[at(o)] = recorder.add(outputs[at(o)], recorder.mul(shares[h], steps[h][at(o)]));
-    parameters[at(k + held[h])] =
-        isAffine ? recorder.mul(shares[h], recorder.recip(factors[h]))
-                 : recorder.sub(recorder.mul(recorder.constant(2.0), shares[h]), recorder.constant(1.0));
+
+  void hold() {
+    std::vector<int> factors;
+    const std::vector<std::vector<int>> steps = stepsOfHeld(factors);
+    const std::vector<int> shares = sharesOf(steps);
+    for (std::size_t h = 0; h < held_.size(); ++h) {
+      for (std::size_t o = 0; o < at(n_); ++o)
+        outputs_[o] = recorder_.add(outputs_[o], recorder_.mul(shares[h], steps[h][o]));
+      parameters_[at(k_ + held_[h])] =
+          isAffine_ ? recorder_.mul(shares[h], recorder_.recip(factors[h]))
+                    : recorder_.sub(recorder_.mul(recorder_.constant(2.0), shares[h]), recorder_.constant(1.0));
+    }
   }
-  const std::vector<int> signs = jumpsOf(f);
-  std::vector<LinearForm> forms;
-  for (const int j : held)
-    if (const auto form = linearFormOf(f, f.nodes()[at(signs[at(j)])].a)) forms.push_back(*form);
-  std::vector<const LinearForm*> all;
-  for (const LinearForm& form : forms) all.push_back(&form);
-  for (const auto& [which, state] : statesThatFollow(all)) {  // exactly, not only up to rounding
-    int sum = recorder.constant(0.0);
-    for (int i = 0; i < n; ++i)
-      if (const double by = forms[which].states[at(i)]; by != 0 && i != state)
-        sum = recorder.sub(sum, recorder.mul(recorder.constant(by / forms[which].states[at(state)]), outputs[at(i)]));
-    outputs[at(state)] = sum;
+
+  /// Rates of states that follow from what is held: exactly, not only up to rounding.
+  void followForms() {
+    const std::vector<int> signs = jumpsOf(f_);
+    std::vector<LinearForm> forms;
+    for (const int j : held_)
+      if (const auto form = linearFormOf(f_, f_.nodes()[at(signs[at(j)])].a)) forms.push_back(*form);
+    std::vector<const LinearForm*> all;
+    for (const LinearForm& form : forms) all.push_back(&form);
+    for (const auto& [which, state] : statesThatFollow(all)) {
+      const std::vector<double>& c = forms[which].states;
+      int sum = recorder_.constant(0.0);
+      for (int i = 0; i < n_; ++i)
+        if (c[at(i)] != 0 && i != state)
+          sum = recorder_.sub(sum, recorder_.mul(recorder_.constant(c[at(i)] / c[at(state)]), outputs_[at(i)]));
+      outputs_[at(state)] = sum;
+    }
   }
-  outputs.resize(at(n + jumps));
-  outputs.insert(outputs.end(), parameters.begin() + k, parameters.end());
-  return recorder.finish(outputs);
+
+  const Program& f_;
+  std::span<const Side> sides_;
+  bool isAffine_;
+  int n_, k_, jumps_;
+  Program given_;
+  Recorder recorder_;
+  std::vector<int> instead_, parameters_, held_, outputs_;  // parameters: with signs behind; held: jumps
+};
+
+}  // namespace
+
+Program onSides(const Program& f, std::span<const Side> sides) {
+  if (jumpsOf(f).size() != sides.size()) throw std::invalid_argument("sides need one for each jump");
+  return SidedMotion(f, sides).write();
 }
 
 }  // namespace gamut
