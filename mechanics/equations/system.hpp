@@ -99,6 +99,7 @@ class System {
 
   void setAccelerations(const std::vector<S>& values);
   const Speeds& speeds() const { return speeds_; }
+  const Chain<S>& chain() const { return chain_; }
 
   /// Of the bodies, for these u̇ and without velocities, all components that an inertia resists.
   std::vector<S> resisted(const std::vector<S>& accelerations);
