@@ -5,7 +5,6 @@
 #include "mechanics/bodies_members.hpp"
 #include "mechanics/element_members.hpp"
 #include "mechanics/equations/system_members.hpp"
-#include "mechanics/joints_members.hpp"
-#include "mechanics/rolling_members.hpp"
+#include "mechanics/joint_members.hpp"
 #include "mechanics/rotation_members.hpp"
 #include "mechanics/springs_members.hpp"

@@ -1,38 +1,28 @@
 // Rigid links and masses.
 //
-//   link (offset d in K, then rotation A)   R' = R A   r' = Aᵀ(r + d)   ω' = Aᵀω   v' = Aᵀ(v + ω × d)
-//                                           ω̇' = Aᵀω̇   a' = Aᵀ(a + ω̇ × d + ω × (ω × d))
-//                                           f += A f'   τ += A τ' + d × A f'
+//   link (offset d in K, then rotation A): a joint without speeds (joint.hpp)
 //   mass (m, centre c, inertia Θ about c)   a_c = a + ω̇ × c + ω × (ω × c)
 //                                           f −= m a_c   τ −= Θ ω̇ + ω × Θ ω + c × m a_c   (d'Alembert)
 #pragma once
 
-#include "mechanics/element.hpp"
-#include "mechanics/rotation.hpp"
+#include "mechanics/joint.hpp"
 
 namespace gamut {
 
 /// A rigid link, rod or offset: frame `to` lies at `offset` in `from`, rotated by a fixed rotation if one is given.
 template <class S>
-class RigidLink final : public Transmission<S> {
+class RigidLink final : public Joint<S> {
  public:
   RigidLink(Frame<S>& from, Frame<S>& to, Vector3<S> offset, Rotation<S> rotation = {})
-      : Transmission<S>(from, to), offset_(std::move(offset)), rotation_(std::move(rotation)) {}
+      : Joint<S>(from, to), fixed_{std::move(rotation), std::move(offset)} {}
 
-  void doMotion(MotionLevel level = MotionLevel::all) override;
-
-  void doForce(ForceKind = ForceKind::all) override;
-
-  MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
-  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
-  SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
-
-  const Vector3<S>& offset() const { return offset_; }
-  const Rotation<S>& rotation() const { return rotation_; }
+  const Vector3<S>& offset() const { return fixed_.offset; }
+  const Rotation<S>& rotation() const { return fixed_.rotation; }
 
  private:
-  Vector3<S> offset_;
-  Rotation<S> rotation_;
+  Place<S> place() const override { return fixed_; }
+
+  Place<S> fixed_;
 };
 
 /// A rigid body's mass [kg], centre of mass [m] and inertia tensor about that centre [kg m²], in frame `at`.

@@ -6,47 +6,6 @@
 namespace gamut {
 
 template <class S>
-void RigidLink<S>::doMotion(MotionLevel level) {
-  const Frame<S>& k = this->from_;
-  Frame<S>& moved = this->to_;
-  if (level != MotionLevel::acceleration) {
-    moved.R = rotation_.after(k.R);
-    moved.r = rotation_.toChild(k.r + offset_);
-  }
-  if (level == MotionLevel::position) return;
-  moved.omegaDot = rotation_.toChild(k.omegaDot);
-  if (level == MotionLevel::acceleration) {
-    moved.a = rotation_.toChild(k.a + k.omegaDot.cross(offset_));
-    return;
-  }
-  moved.omega = rotation_.toChild(k.omega);
-  moved.v = rotation_.toChild(k.v + k.omega.cross(offset_));
-  moved.a = rotation_.toChild(k.a + offsetAcceleration(k.omega, k.omegaDot) * offset_);
-}
-
-template <class S>
-void RigidLink<S>::doForce(ForceKind) {
-  const Vector3<S> force = rotation_.toParent(this->to_.f);
-  this->from_.f += force;
-  this->from_.tau += rotation_.toParent(this->to_.tau) + offset_.cross(force);
-}
-
-template <class S>
-MovingPoint<S> RigidLink<S>::inFrom(const MovingPoint<S>& point) const {
-  return {offset_ + rotation_.toParent(point.position), rotation_.toParent(point.velocity)};
-}
-
-template <class S>
-TurningAxes<S> RigidLink<S>::axesInFrom(const TurningAxes<S>& turning) const {
-  return rotation_.toParent(turning);
-}
-
-template <class S>
-SpatialInertia<S> RigidLink<S>::inFrom(const SpatialInertia<S>& inertia) {
-  return rotation_.toParent(inertia).shifted(offset_);
-}
-
-template <class S>
 void MassElement<S>::doMotion(MotionLevel level) {
   if (level == MotionLevel::position) return;
   a_ = level == MotionLevel::acceleration

@@ -1,127 +1,81 @@
-// Elementary joints between two frames K (from) and K' (to), with A the rotation from K to K':
+// Elementary joints, of which elements are made: where each puts K' in K, and what its speed moves K' by (joint.hpp).
 //
-//   revolute (axis u, angle β)     R' = R A   r' = Aᵀ r       ω' = Aᵀω + u β̇   v' = Aᵀ v
-//                                  ω̇' = Aᵀω̇ + Aᵀω × u β̇ + u β̈   a' = Aᵀ a
-//                                  f += A f'   τ += A τ'      Q += u·τ'
-//   prismatic (axis u, path s)     R' = R     r' = r + u s    ω' = ω           v' = v + ω × u s + u ṡ
-//                                  ω̇' = ω̇    a' = a + ω̇ × u s + ω × (ω × u s) + 2 ω × u ṡ + u s̈
-//                                  f += f'     τ += τ' + u s × f'              Q += u·f'
-//   screw (axis u, angle β, lead h)  both at once, with s = h β and Q += u·τ' + h u·f'
-//   spherical (quaternion e, rates u)   R' = R A(e)  r' = Aᵀ r       ω' = Aᵀω + u     v' = Aᵀ v
-//                                  ω̇' = Aᵀω̇ + Aᵀω × u + u̇         a' = Aᵀ a
-//                                  f += A f'   τ += A τ'      Q += τ'
+//   revolute (axis u, angle β)          A(u, β)   d = 0     s = (u, 0)
+//   prismatic (axis u, path p)          A = 1     d = u p   s = (0, u)
+//   spherical (quaternion e, rates u)   A(e)      d = 0     s_i = (e_i, 0), e_i the axes of K'
 //
-// Axes u have the same components in K and K'. Source: MOBILE's elementary joint, LNCS 5045 (2008), eq. 25.
+// Axes u have the same components in K and K'.
 #pragma once
 
-#include "mechanics/element.hpp"
-#include "mechanics/rotation.hpp"
+#include "mechanics/joint.hpp"
 
 namespace gamut {
 
 /// Turns frame `to` about an axis fixed in both frames: revolute joint, hinge, pin.
 template <class S>
-class RevoluteJoint final : public Transmission<S> {
+class RevoluteJoint final : public Joint<S> {
  public:
   RevoluteJoint(Frame<S>& from, Frame<S>& to, Variable<S>& angle, const Axis& axis)
-      : Transmission<S>(from, to), angle_(angle), axis_(axis) {}
-
-  void doMotion(MotionLevel level = MotionLevel::all) override;
-
-  void doForce(ForceKind = ForceKind::all) override;
-
-  std::vector<Speed<S>*> speeds() const override;
-
-  MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
-  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
-  SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
+      : Joint<S>(from, to, {&angle}), angle_(angle), axis_(axis) {}
 
   Variable<S>& angle() const { return angle_; }
   const Axis& axis() const { return axis_; }
-  /// From now on the speed is that of another element, which moves all inertia that there was behind (spin.hpp).
-  void handOverSpeed() { hasSpeed_ = false; }
 
  private:
+  Place<S> place() const override { return {Rotation<S>(axis_, angle_.position)}; }
+  std::vector<Twist<S>> motions() const override { return {{axis_.template unit<S>()}}; }
+
   Variable<S>& angle_;
   Axis axis_;
-  Rotation<S> rotation_;
-  bool hasSpeed_ = true;
 };
 
 /// Slides frame `to` along an axis: prismatic joint, slider.
 template <class S>
-class PrismaticJoint final : public Transmission<S> {
+class PrismaticJoint final : public Joint<S> {
  public:
   PrismaticJoint(Frame<S>& from, Frame<S>& to, Variable<S>& displacement, const Axis& axis)
-      : Transmission<S>(from, to), path_(displacement), axis_(axis) {}
-
-  void doMotion(MotionLevel level = MotionLevel::all) override;
-
-  void doForce(ForceKind = ForceKind::all) override;
-
-  std::vector<Speed<S>*> speeds() const override;
-
-  MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
-  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
-  SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
+      : Joint<S>(from, to, {&displacement}), path_(displacement), axis_(axis) {}
 
  private:
+  Place<S> place() const override { return {{}, axis_.template unit<S>() * path_.position}; }
+  std::vector<Twist<S>> motions() const override { return {{zeroVector<S>(), axis_.template unit<S>()}}; }
+
   Variable<S>& path_;
   Axis axis_;
 };
 
-/// Turns frame `to` about an axis fixed in both frames, and slides it along that by `lead` [m/rad] times the angle:
-/// screw joint.
-template <class S>
-class ScrewJoint final : public Transmission<S> {
- public:
-  ScrewJoint(Frame<S>& from, Frame<S>& to, Variable<S>& angle, S lead, const Axis& axis)
-      : Transmission<S>(from, to), angle_(angle), lead_(std::move(lead)), axis_(axis) {}
-
-  void doMotion(MotionLevel level = MotionLevel::all) override;
-
-  void doForce(ForceKind = ForceKind::all) override;
-
-  std::vector<Speed<S>*> speeds() const override;
-
-  MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
-  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
-  SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
-
- private:
-  Vector3<S> path() const;
-
-  Variable<S>& angle_;
-  S lead_;
-  Axis axis_;
-  Rotation<S> rotation_;
-};
-
 /// Turns frame `to` as it likes: spherical joint, ball and socket.
 template <class S>
-class SphericalJoint final : public Transmission<S> {
+class SphericalJoint final : public Joint<S> {
  public:
   SphericalJoint(Frame<S>& from, Frame<S>& to, Orientation<S> orientation)
-      : Transmission<S>(from, to), own_(std::move(orientation)) {}
-
-  void doMotion(MotionLevel level = MotionLevel::all) override;
-
-  void doForce(ForceKind = ForceKind::all) override;
-
-  std::vector<Speed<S>*> speeds() const override;
-
-  MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
-  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
-  SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
+      : Joint<S>(from, to, {orientation.speeds.begin(), orientation.speeds.end()}), own_(std::move(orientation)) {}
 
  private:
+  Place<S> place() const override { return {Rotation<S>(own_.value())}; }
+  std::vector<Twist<S>> motions() const override { return {{axisX.unit<S>()}, {axisY.unit<S>()}, {axisZ.unit<S>()}}; }
+
   Orientation<S> own_;
-  Rotation<S> rotation_;
+};
+
+/// Turns the axes of what moves already, as a ball that rolls does in axes that do not turn with it: by A(e) alone.
+template <class S>
+class BallAxes final : public Joint<S> {
+ public:
+  BallAxes(Frame<S>& from, Frame<S>& to, Orientation<S> orientation)
+      : Joint<S>(from, to), own_(std::move(orientation)) {}
+
+  Rotation<S> rotation() const { return Rotation<S>(own_.value()); }
+
+ private:
+  Place<S> place() const override { return {rotation()}; }
+
+  Orientation<S> own_;
 };
 
 GAMUT_COMPILED_ELSEWHERE(RevoluteJoint)
 GAMUT_COMPILED_ELSEWHERE(PrismaticJoint)
-GAMUT_COMPILED_ELSEWHERE(ScrewJoint)
 GAMUT_COMPILED_ELSEWHERE(SphericalJoint)
+GAMUT_COMPILED_ELSEWHERE(BallAxes)
 
 }  // namespace gamut

@@ -123,7 +123,7 @@ class Spinning {
     Unturned<Recorded> here = before;
     here.frame = &frames_.emplace_back(element.to().name);
     if (auto* joint = dynamic_cast<RevoluteJoint<Recorded>*>(&element)) {
-      joint->handOverSpeed();
+      joint->handOverSpeeds();
       here.turns.emplace_back(&joint->angle(), sameSide(joint->axis(), before.axis));
       ahead_[part] =
           std::make_unique<SpinningJoint<Recorded>>(*before.frame, *here.frame, joint->angle(), joint->axis());

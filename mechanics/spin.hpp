@@ -4,14 +4,14 @@
 //
 //   ω° = ω + u β̇   v° = v   ω̇° = ω̇ + ω × u β̇ + u β̈   a° = a      f += f°   τ += τ°   Q += u·τ°
 //
-// These are the joint's equations with A = 1 (joints.hpp). A body that is the same however it is turned about u has the
+// These are the joint's equations with A = 1 (joint.hpp). A body that is the same however it is turned about u has the
 // same centre and the same inertia in K° as in K': fixed to K° it moves as it did, and β is in none of its equations.
 // In K' it is there twice, as A and Aᵀ, which only cos² + sin² = 1 takes out again: bounds do not see that.
 //
 // So it is done wherever every body behind a joint is such a body, through links along the axis and further joints
-// about it, as rotors, shafts, wheels and planets of gears are; and of balls that roll (rolling.hpp), about all axes.
-// A load on that axis may come along (load_on_axis.hpp); what else is behind, loads and frames that are looked at,
-// keeps its frames, which move as before.
+// about it, as rotors, shafts, wheels and planets of gears are; and of balls that roll (elements/rolling_ball.hpp),
+// about all axes. A load on that axis may come along (load_on_axis.hpp); what else is behind, loads and frames that are
+// looked at, keeps its frames, which move as before.
 #pragma once
 
 #include <deque>
@@ -22,55 +22,21 @@
 
 #include "mechanics/element.hpp"
 #include "mechanics/joints.hpp"
-#include "mechanics/rolling.hpp"
 #include "mechanics/rotation.hpp"
 
 namespace gamut {
 
 /// Spins frame `to` about an axis, but for its axes, which stay parallel to those of `from`.
 template <class S>
-class SpinningJoint final : public Transmission<S> {
+class SpinningJoint final : public Joint<S> {
  public:
   SpinningJoint(Frame<S>& from, Frame<S>& to, Variable<S>& angle, const Axis& axis)
-      : Transmission<S>(from, to), angle_(angle), axis_(axis) {}
-
-  void doMotion(MotionLevel level = MotionLevel::all) override {
-    const Frame<S>& k = this->from_;
-    Frame<S>& moved = this->to_;
-    const Vector3<S> u = axis_.template unit<S>();
-    if (level != MotionLevel::acceleration) {
-      moved.R = k.R;
-      moved.r = k.r;
-    }
-    if (level == MotionLevel::position) return;
-    moved.omegaDot = k.omegaDot + u * angle_.acceleration;
-    moved.a = k.a;
-    if (level == MotionLevel::acceleration) return;
-    const Vector3<S> own = u * angle_.rate;
-    moved.omega = k.omega + own;
-    moved.v = k.v;
-    moved.omegaDot += k.omega.cross(own);
-  }
-
-  void doForce(ForceKind = ForceKind::all) override {
-    this->from_.f += this->to_.f;
-    this->from_.tau += this->to_.tau;
-    angle_.force += axis_.template unit<S>().dot(this->to_.tau);
-  }
-
-  std::vector<Speed<S>*> speeds() const override { return {&angle_}; }
-
-  MovingPoint<S> inFrom(const MovingPoint<S>& point) const override {
-    const Vector3<S> turning = axis_.template unit<S>() * angle_.rate;
-    return {point.position, point.velocity + turning.cross(point.position)};
-  }
-  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override {
-    return {turning.axes, turning.omega + axis_.template unit<S>() * angle_.rate};
-  }
-  SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override { return inertia; }
+      : Joint<S>(from, to, {&angle}), axis_(axis) {}
 
  private:
-  Variable<S>& angle_;
+  Place<S> place() const override { return {}; }
+  std::vector<Twist<S>> motions() const override { return {{axis_.template unit<S>()}}; }
+
   Axis axis_;
 };
 

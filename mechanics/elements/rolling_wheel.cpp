@@ -8,6 +8,54 @@
 #include "mechanics/joints.hpp"
 
 namespace gamut {
+namespace {
+
+/// How a wheel that rolls moves the point where it touches a plane, by its lean θ about x and its turn φ about its axle
+/// y. With ρ the radius to which its tread is crowned, and R that of the circle about which it is, v + ω × (touching −
+/// centre) = 0, v the velocity of the centre, says
+///
+///   along = (R + ρ cos θ) φ̇     across = −ρ θ̇
+///
+/// Ahead of the joints.
+template <class S>
+class WheelRolling final : public Gearing<S> {
+ public:
+  /// `circle`: R, `crown`: ρ [m].
+  WheelRolling(Variable<S>& lean, Variable<S>& angle, S circle, S crown)
+      : lean_(lean), angle_(angle), circle_(std::move(circle)), crown_(std::move(crown)) {}
+
+  void doMotion(MotionLevel level = MotionLevel::all) override {
+    using std::cos, std::sin;
+    if (level != MotionLevel::acceleration) {
+      reach_ = circle_ + crown_ * S(cos(lean_.position));
+      slope_ = crown_ * S(sin(lean_.position));
+    }
+    if (level == MotionLevel::position) return;
+    along_.acceleration = reach_ * angle_.acceleration;
+    across_.acceleration = -(crown_ * lean_.acceleration);
+    if (level == MotionLevel::acceleration) return;
+    along_.rate = reach_ * angle_.rate;
+    across_.rate = -(crown_ * lean_.rate);
+    along_.acceleration = along_.acceleration - slope_ * lean_.rate * angle_.rate;
+  }
+
+  void doForce(ForceKind = ForceKind::all) override {
+    angle_.force += reach_ * along_.force;
+    lean_.force -= crown_ * across_.force;
+  }
+
+  Speed<S>& along() { return along_; }
+  Speed<S>& across() { return across_; }
+
+ private:
+  Variable<S>& lean_;
+  Variable<S>& angle_;
+  S circle_, crown_;
+  S reach_ = S(0.0), slope_ = S(0.0);  // R + ρ cos θ, ρ sin θ
+  Speed<S> along_, across_;
+};
+
+}  // namespace
 
 void RollingWheel::describe(Fields& f) {
   f.frame({"from", "", "the frame whose x and y span the plane"}, from);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mechanics/assembler.hpp"
-#include "mechanics/rolling.hpp"
+#include "mechanics/elements/gliding.hpp"
 
 namespace gamut {
 
