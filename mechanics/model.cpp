@@ -132,4 +132,13 @@ Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>
   return recorded(mechanism, freeParameters, std::span<const std::string>(outputs));
 }
 
+void checkStart(const Mechanism& mechanism) {
+  if (mechanism.lengths().empty()) return;
+  const Assembly<double> assembly(mechanism);
+  for (const auto& [quantity, type, element] : mechanism.lengths())
+    if (assembly.output(quantity) == 0)
+      throw UnfitPart(element, "the " + type + " '" + element + "' has no length at the start",
+                      "points that lie apart");
+}
+
 }  // namespace gamut

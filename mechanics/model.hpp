@@ -26,6 +26,9 @@ class Assembly;
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                      Formulation formulation = Formulation::sparse);
 
+/// Throws UnfitPart if points between which an element measures a length do not lie apart at the start.
+void checkStart(const Mechanism& mechanism);
+
 /// The coordinates and speeds of this motion that come to rest on rigid ends.
 std::vector<RestingPair> restsOf(const Mechanism& mechanism);
 

@@ -1,8 +1,7 @@
-// The words of an element say what it is: which frames it joins, whether it moves one, and by what.
+// Elements say what is seen of them: frames that they move, and by what, bodies, springs.
 #include "mechanics/skeleton.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "mechanics/assembly.hpp"
@@ -13,58 +12,40 @@
 namespace gamut {
 namespace {
 
-/// What one element says of itself.
-class Words final : public Fields {
+/// What one element says that is seen of it.
+class Seen final : public Onlooker {
  public:
-  struct NamedFrame {
+  struct Moved {
+    std::string from, to;
+  };
+  struct Body {
+    FixedPoint centre;
+    Expression mass;
+  };
+  struct Spring {
+    FixedPoint from, to;
+  };
+  struct JointAxis {
     std::string key, frame;
+    Axis axis;
   };
 
-  void frame(const Word& word, std::string& name) override { frames.push_back({word.key, name}); }
-  void movedFrame(const Word& word, std::string& name, const std::string& /*from*/) override {
-    frames.push_back({word.key, name});
-    movesFrame = true;
+  void movedFrame(const Word&, std::string& name, const std::string& from) override { moved.push_back({from, name}); }
+  void carriesMass(const FixedPoint& centre, const Expression& mass) override { bodies.push_back({centre, mass}); }
+  void drawsSpring(const FixedPoint& from, const FixedPoint& to) override { springs.push_back({from, to}); }
+  void jointAxis(const Word& word, Axis& axis, const std::string& frame) override {
+    axes.push_back({word.key, frame, axis});
   }
-  void carriesMass(const std::string& /*frame*/) override { isMass = true; }
-  void choice(const Word&, std::string&, const std::vector<std::string>&) override {}
-  void axis(const Word& word, Axis& axis) override { axes.emplace_back(word.key, axis); }
-  void rotations(const Word&, std::vector<FixedRotation>&) override {}
-  void number(const Word& word, Expression& number) override {
-    if (word.key == "mass") mass = number;
-    isElastic = isElastic || word.key == "stiffness" || word.key == "damping";
+  void coordinate(const Word&, Expression&, Coordinate kind, const Word&, Expression&) override {
+    ++(kind == Coordinate::angle ? turns : slides);
   }
-  void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const> names,
-               std::size_t) override {
-    if (word.unit == "m" && std::ranges::equal(names, components))
-      vectors.emplace_back(word.key, ExpressionVector{numbers[0], numbers[1], numbers[2]});
-    isElastic = isElastic || word.key == "stiffness" || word.key == "damping";
-  }
-  void coordinate(const Word&, Expression&, Coordinate, const Word& rate, Expression&) override { count(rate); }
-  void position(const Word&, Expression&) override {}
-  void speed(const Word& word, Expression&) override { count(word); }
-  std::string state(const Word& word, Expression&) override { return word.unit; }
-  Coordinate coordinateOf(const Word&, std::string&) override { return Coordinate::angle; }
-  void timeFunction(const Word&, Expression&) override {}
-  void signal(const Word&, Expression&) override {}
-  void signals(const Word&, ExpressionVector&) override {}
-  void measure(const Word&) override {}
+  void speed(const Word& word, Expression&) override { ++(word.unit == "rad/s" ? turns : slides); }
 
-  /// A vector by its key; zero where there is none.
-  ExpressionVector vector(const std::string& key) const {
-    for (const auto& [name, vector] : vectors)
-      if (name == key) return vector;
-    return {0.0, 0.0, 0.0};
-  }
-
-  std::vector<NamedFrame> frames;
-  std::vector<std::pair<std::string, Axis>> axes;
-  std::vector<std::pair<std::string, ExpressionVector>> vectors;
-  std::optional<Expression> mass;
+  std::vector<Moved> moved;
+  std::vector<Body> bodies;
+  std::vector<Spring> springs;
+  std::vector<JointAxis> axes;
   int turns = 0, slides = 0;
-  bool movesFrame = false, isMass = false, isElastic = false;
-
- private:
-  void count(const Word& speed) { ++(speed.unit == "rad/s" ? turns : slides); }
 };
 
 class Finder {
@@ -77,49 +58,36 @@ class Finder {
 
  private:
   void take(Described& element) {
-    Words words;
-    element.describe(words);
+    Seen seen;
+    element.describe(seen);
     using enum Skeleton::Kind;
     const std::string& name = element.name();
-    Skeleton::Part part{name, element.type(), rigid, 0, 0, words.turns, words.slides};
-    if (words.isMass && !words.frames.empty()) {
-      part.kind = mass;
-      part.mass = words.mass.value_or(Expression(0.0));
-      part.from = pointOf(words.frames[0].frame);
-      part.to = pointOf(words.frames[0].frame, name + ".centre", words.vector("centre"));
-    } else if (words.frames.size() != 2) {
-      return;
-    } else if (words.movesFrame) {
-      if (words.turns + words.slides > 0)
-        part.kind = joint;
-      else if (std::ranges::count(ground_, words.frames[0].frame) > 0)
-        ground_.push_back(words.frames[1].frame);
-      part.from = pointOf(words.frames[0].frame);
-      part.to = pointOf(words.frames[1].frame);
-    } else if (words.isElastic && words.axes.empty()) {  // no contact, which has a normal
-      part.kind = spring;
-      const auto end = [&](const Words::NamedFrame& of) {
-        return pointOf(of.frame, name + "." + of.key, words.vector(of.key + "_point"));
-      };
-      part.from = end(words.frames[0]);
-      part.to = end(words.frames[1]);
-    } else {
-      return;
+    for (const auto& [from, to] : seen.moved) {
+      const bool isJoint = seen.turns + seen.slides > 0;
+      if (!isJoint && std::ranges::count(ground_, from) > 0) ground_.push_back(to);
+      for (const auto& [key, frame, axis] : seen.axes)
+        skeleton.axes.push_back({name + "." + key, skeleton.parts.size(), frame, axis});
+      const std::size_t first = pointOf(from), second = pointOf(to);
+      skeleton.parts.push_back(
+          {name, element.type(), isJoint ? joint : rigid, first, second, seen.turns, seen.slides, 0.0});
     }
-    if (part.kind == joint)
-      for (std::size_t i = 0; i < words.axes.size(); ++i)  // of two hinges the second is fixed in what they move
-        skeleton.axes.push_back({name + "." + words.axes[i].first, skeleton.parts.size(),
-                                 words.frames[i == 0 ? 0 : 1].frame, words.axes[i].second});
-    skeleton.parts.push_back(std::move(part));
+    for (const auto& [centre, mass] : seen.bodies) {
+      const std::size_t first = pointOf(centre.frame), second = pointOf(name + ".centre", centre);
+      skeleton.parts.push_back({name, element.type(), Skeleton::Kind::mass, first, second, 0, 0, mass});
+    }
+    for (const auto& [from, to] : seen.springs) {
+      const std::size_t first = pointOf(name + ".from", from), second = pointOf(name + ".to", to);
+      skeleton.parts.push_back({name, element.type(), spring, first, second, 0, 0, 0.0});
+    }
   }
 
   std::size_t pointOf(const std::string& frame) {
     const auto found = std::ranges::find(skeleton.points, frame, &Skeleton::Point::name);
-    if (found == skeleton.points.end()) return pointOf(frame, frame, {0.0, 0.0, 0.0});
+    if (found == skeleton.points.end()) return pointOf(frame, FixedPoint{frame});
     return static_cast<std::size_t>(found - skeleton.points.begin());
   }
-  std::size_t pointOf(const std::string& frame, const std::string& name, const ExpressionVector& offset) {
-    skeleton.points.push_back({name, frame, offset, false, std::ranges::count(ground_, frame) > 0});
+  std::size_t pointOf(const std::string& name, const FixedPoint& at) {
+    skeleton.points.push_back({name, at.frame, at.place, false, std::ranges::count(ground_, at.frame) > 0});
     return skeleton.points.size() - 1;
   }
 

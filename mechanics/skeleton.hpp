@@ -50,7 +50,7 @@ struct Skeleton {
 };
 
 /// In the order of the elements; empty for a mechanism of states alone. Points count as one only if they are for all
-/// values of the free parameters. Elements that only measure, or act at a point, are no parts.
+/// values of the free parameters. What elements do not say to be seen is no part.
 Skeleton skeletonOf(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {});
 
 /// x, y, z of every point [m], of their velocities [m/s], or of the axes' unit vectors, in the inertial frame.

@@ -173,7 +173,7 @@ Motion recordedMotion(const Study& study) {
   motion.times = study.times;
   for (const OutputInfo& output : study.outputs) motion.outputNames.push_back(output.name);
   try {
-    refuseLengthsOfNothing(study);
+    checkStart(study.mechanism);
     const MemoryBound bound(StatedLimits{}.resolved().memory);  // what a study states is of its runs
     recordAnalysis(study, freeParametersOf(study), motion);
   } catch (...) {

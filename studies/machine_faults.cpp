@@ -106,17 +106,6 @@ void refuseJointsAlike(const Study& study) {
 
 }  // namespace
 
-void refuseLengthsOfNothing(const Study& study) {
-  const Assembly<double> assembly(study.mechanism);
-  for (const Described& element : study.mechanism.elements()) {
-    const std::string length = element.name() + ".length";
-    if (study.mechanism.isOutputQuantity(length) && assembly.output(length) == 0)
-      refuse(study.places.of(element.name()),
-             fmt::format("the {} '{}' has no length at the start", element.type(), element.name()),
-             "points that lie apart");
-  }
-}
-
 void refuseMechanism(const Study& study) try { throw; } catch (const UndefinedOutput& error) {
   refuse(study.places.outputs[error.output()],
          fmt::format("'{}' {}", study.outputs[error.output()].quantity, error.what()), "a formula that has a value");

@@ -5,10 +5,6 @@
 
 namespace gamut {
 
-/// Throws StudyError where points between which a length is measured lie together at the start, so that its direction
-/// is not determined.
-void refuseLengthsOfNothing(const Study& study);
-
 /// While an exception is handled that recording the study's mechanism threw: throws the StudyError that it means, or
 /// that exception again.
 [[noreturn]] void refuseMechanism(const Study& study);

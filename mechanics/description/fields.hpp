@@ -59,6 +59,12 @@ struct Start {
   bool isRising = false;  ///< its rate is above 0, where everything is nominal
 };
 
+/// A point that is fixed to a frame.
+struct FixedPoint {
+  std::string frame;
+  ExpressionVector place = {0.0, 0.0, 0.0};  ///< in that frame [m]
+};
+
 class Fields {
  public:
   Fields() = default;
@@ -72,12 +78,16 @@ class Fields {
   virtual void otherFrame(const Word& word, std::string& name, const std::string& /*other*/) { frame(word, name); }
   /// A frame that this element moves by another.
   virtual void movedFrame(const Word& word, std::string& name, const std::string& from) = 0;
-  /// The element fixes a mass to this frame, which one of its words has named.
-  virtual void carriesMass(const std::string& /*frame*/) {}
+  /// The element fixes a mass [kg] to a frame, which one of its words has named, with its centre there.
+  virtual void carriesMass(const FixedPoint& /*centre*/, const Expression& /*mass*/) {}
+  /// It is seen as a spring between these ends. What moves a frame and what carries mass is seen as that.
+  virtual void drawsSpring(const FixedPoint& /*from*/, const FixedPoint& /*to*/) {}
   /// One of the words.
   virtual void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) = 0;
   /// A direction fixed in the frames.
   virtual void axis(const Word& word, Axis& axis) = 0;
+  /// The same; the joint is seen to turn about it, or to slide along it, fixed in this frame.
+  virtual void jointAxis(const Word& word, Axis& axis, const std::string& /*frame*/) { this->axis(word, axis); }
   /// Fixed rotations, one after the other; their numbers are KEY.1, KEY.2, … or KEY.roll, KEY.w and the like.
   virtual void rotations(const Word& word, std::vector<FixedRotation>& rotations) = 0;
 
@@ -134,6 +144,31 @@ class Fields {
   /// The same of what is known once the equations of motion are solved, an acceleration or a reaction
   /// (Assembler::measureSolved); no load may depend on it.
   virtual void measureSolved(const Word& word) { measure(word); }
+  /// The same of the length between two points, which lie apart at the start, or its direction is not determined.
+  virtual void measureLength(const Word& word) { measure(word); }
+};
+
+/// A visitor that overlooks what it does not ask for.
+class Onlooker : public Fields {
+ public:
+  void frame(const Word& /*word*/, std::string& /*name*/) override {}
+  void movedFrame(const Word& /*word*/, std::string& /*name*/, const std::string& /*from*/) override {}
+  void choice(const Word& /*word*/, std::string& /*value*/, const std::vector<std::string>& /*choices*/) override {}
+  void axis(const Word& /*word*/, Axis& /*axis*/) override {}
+  void rotations(const Word& /*word*/, std::vector<FixedRotation>& /*rotations*/) override {}
+  void number(const Word& /*word*/, Expression& /*number*/) override {}
+  void numbers(const Word& /*word*/, std::span<Expression> /*numbers*/, std::span<const char* const> /*names*/,
+               std::size_t /*least*/) override {}
+  void coordinate(const Word& /*position*/, Expression& /*initial*/, Coordinate /*kind*/, const Word& /*rate*/,
+                  Expression& /*initialRate*/) override {}
+  void position(const Word& /*word*/, Expression& /*initial*/) override {}
+  void speed(const Word& /*word*/, Expression& /*initial*/) override {}
+  std::string state(const Word& word, Expression& /*initial*/) override { return word.unit; }
+  Coordinate coordinateOf(const Word& /*word*/, std::string& /*name*/) override { return Coordinate::angle; }
+  void timeFunction(const Word& /*word*/, Expression& /*number*/) override {}
+  void signal(const Word& /*word*/, Expression& /*number*/) override {}
+  void signals(const Word& /*word*/, ExpressionVector& /*vector*/) override {}
+  void measure(const Word& /*word*/) override {}
 };
 
 }  // namespace gamut

@@ -281,7 +281,8 @@ void Mechanism::drive(const std::string& coordinate, const std::string& by) {
 /// Visits an element that is being added.
 class Mechanism::Checker final : public Fields {
  public:
-  Checker(Mechanism& mechanism, std::string element) : m_(mechanism), element_(std::move(element)) {}
+  Checker(Mechanism& mechanism, const Described& element)
+      : m_(mechanism), type_(element.type()), element_(element.name()) {}
 
   void frame(const Word& /*word*/, std::string& name) override { m_.checkFrame(name, element_); }
   void otherFrame(const Word& word, std::string& name, const std::string& other) override {
@@ -289,10 +290,10 @@ class Mechanism::Checker final : public Fields {
     if (name == other)
       refuse("the element " + inQuotes(element_) + " joins a frame to itself; expected two different frames");
   }
-  void carriesMass(const std::string& frame) override {
+  void carriesMass(const FixedPoint& centre, const Expression& /*mass*/) override {
     if (m_.isFrame_.contains(element_))
       refuse("the element " + inQuotes(element_) + " has the name of a frame; expected another name");
-    m_.massFrames_.push_back(frame);
+    m_.massFrames_.push_back(centre.frame);
   }
   void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {
     m_.addFrame(from, name, element_);
@@ -415,6 +416,10 @@ class Mechanism::Checker final : public Fields {
 
   void measure(const Word& word) override { m_.addMeasured(named(word), word.unit, element_); }
   void measureSolved(const Word& word) override { m_.addMeasured(named(word), word.unit, element_, true); }
+  void measureLength(const Word& word) override {
+    measure(word);
+    m_.lengths_.push_back({named(word), type_, element_});
+  }
 
  private:
   std::string named(const Word& word) const { return element_ + "." + word.key; }
@@ -431,12 +436,12 @@ class Mechanism::Checker final : public Fields {
   }
 
   Mechanism& m_;
-  std::string element_;
+  std::string type_, element_;
 };
 
 void Mechanism::add(Described element) {
   checkNewName(element.type(), element.name());
-  Checker checker(*this, element.name());
+  Checker checker(*this, element);
   element.describe(checker);
   names_.insert(element.name());
   elements_.push_back(std::move(element));

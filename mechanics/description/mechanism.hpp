@@ -154,6 +154,12 @@ class Mechanism {
   /// or, of a further frame that the element moves, ELEMENT.FRAME.reaction.
   std::string reactionOf(const std::string& frame) const;
 
+  /// A measured length between points that lie apart at the start.
+  struct Length {
+    std::string quantity, type, element;
+  };
+  const std::vector<Length>& lengths() const { return lengths_; }
+
   /// How many positions there are.
   std::size_t positions() const { return positions_.size(); }
   bool isSpeed(const std::string& state) const { return speeds_.find(state) != nullptr; }
@@ -237,6 +243,7 @@ class Mechanism {
   std::vector<Following> followings_;
   std::unordered_map<std::string, std::string> struck_;  // coordinates that strike a rigid end: its element
   Named<Measured> measured_;
+  std::vector<Length> lengths_;
   std::unordered_map<std::string, std::vector<Signal>> signals_;  // of elements
 };
 

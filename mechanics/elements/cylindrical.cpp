@@ -9,7 +9,7 @@ namespace gamut {
 void Cylindrical::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the joint"}, from);
   f.movedFrame({"to", "", "the frame that slides and turns"}, to, from);
-  f.axis({"axis", "", "of both", true}, axis);
+  f.jointAxis({"axis", "", "of both", true}, axis, from);
   f.coordinate({"displacement", "m", "at the start"}, displacement, Coordinate::displacement,
                {"displacement_rate", "m/s", "at the start"}, displacementRate);
   f.coordinate({"angle", "rad", "at the start"}, angle, Coordinate::angle, {"angle_rate", "rad/s", "at the start"},

@@ -25,7 +25,7 @@ void Distance::describe(Fields& f) {
   f.otherFrame({"to", "", "the frame at the other end"}, to, from);
   f.vector({"from_point", "m", "a point in `from`"}, fromPoint);
   f.vector({"to_point", "m", "a point in `to`"}, toPoint);
-  f.measure({"length", "m", "the distance of the points"});
+  f.measureLength({"length", "m", "the distance of the points"});
   f.measure({"rate", "m/s", "at which it grows"});
 }
 

@@ -9,7 +9,7 @@ namespace gamut {
 void Planar::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the joint"}, from);
   f.movedFrame({"to", "", "the frame that slides and turns"}, to, from);
-  f.axis({"axis", "", "the normal: `\"x\"`, `\"y\"` or `\"z\"`, which it is unless given"}, axis);
+  f.jointAxis({"axis", "", "the normal: `\"x\"`, `\"y\"` or `\"z\"`, which it is unless given"}, axis, from);
   f.coordinate({"displacement1", "m", "at the start, along the axis that follows the normal: x for z"}, displacement1,
                Coordinate::displacement, {"displacement1_rate", "m/s", "at the start"}, displacement1Rate);
   f.coordinate({"displacement2", "m", "at the start, along the next: y for z"}, displacement2, Coordinate::displacement,

@@ -8,7 +8,7 @@ namespace gamut {
 void Prismatic::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the joint"}, from);
   f.movedFrame({"to", "", "the frame that slides"}, to, from);
-  f.axis({"axis", "", "along which it slides", true}, axis);
+  f.jointAxis({"axis", "", "along which it slides", true}, axis, from);
   f.coordinate({"displacement", "m", "at the start"}, displacement, Coordinate::displacement,
                {"rate", "m/s", "at the start"}, rate);
 }

@@ -8,7 +8,7 @@ namespace gamut {
 void Revolute::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the joint"}, from);
   f.movedFrame({"to", "", "the frame that turns"}, to, from);
-  f.axis({"axis", "", "about which it turns", true}, axis);
+  f.jointAxis({"axis", "", "about which it turns", true}, axis, from);
   f.coordinate({"angle", "rad", "at the start"}, angle, Coordinate::angle, {"rate", "rad/s", "at the start"}, rate);
 }
 

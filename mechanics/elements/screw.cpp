@@ -33,7 +33,7 @@ class ScrewJoint final : public Joint<S> {
 void Screw::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the joint"}, from);
   f.movedFrame({"to", "", "the frame that turns and slides"}, to, from);
-  f.axis({"axis", "", "of both", true}, axis);
+  f.jointAxis({"axis", "", "of both", true}, axis, from);
   f.number({"lead", "m", "how far it slides in one turn; below 0 for a left-handed thread", true}, lead);
   f.coordinate({"angle", "rad", "at the start"}, angle, Coordinate::angle, {"rate", "rad/s", "at the start"}, rate);
 }

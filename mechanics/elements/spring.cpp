@@ -13,7 +13,8 @@ void Spring::describe(Fields& f) {
   f.number({"damping", "N s/m", ""}, damping);
   f.vector({"from_point", "m", "where it is fixed in `from`"}, fromPoint);
   f.vector({"to_point", "m", "where it is fixed in `to`"}, toPoint);
-  f.measure({"length", "m", "of the spring"});
+  f.drawsSpring({from, fromPoint}, {to, toPoint});
+  f.measureLength({"length", "m", "of the spring"});
   f.measure({"force", "N", "that pushes its ends apart"});
 }
 

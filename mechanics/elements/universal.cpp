@@ -9,8 +9,8 @@ namespace gamut {
 void Universal::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the joint"}, from);
   f.movedFrame({"to", "", "the frame that turns"}, to, from);
-  f.axis({"axis", "", "of the first angle; `\"x\"` unless given"}, axis);
-  f.axis({"second_axis", "", "of the second angle; `\"y\"` unless given"}, secondAxis);
+  f.jointAxis({"axis", "", "of the first angle; `\"x\"` unless given"}, axis, from);
+  f.jointAxis({"second_axis", "", "of the second angle; `\"y\"` unless given"}, secondAxis, to);
   f.coordinate({"angle1", "rad", "at the start"}, angle1, Coordinate::angle, {"rate1", "rad/s", "at the start"}, rate1);
   f.coordinate({"angle2", "rad", "at the start"}, angle2, Coordinate::angle, {"rate2", "rad/s", "at the start"}, rate2);
 }

@@ -18,7 +18,7 @@ namespace gamut::testing {
 
 /// Fills in the words of an element that joins the frames "seat" and "moved": numbers that shrink, so that later
 /// radii fit into earlier ones, and these axes, one after the other.
-class FilledIn final : public Fields {
+class FilledIn final : public Onlooker {
  public:
   explicit FilledIn(std::vector<Axis> axes) : axes_(std::move(axes)) {}
 
@@ -38,18 +38,10 @@ class FilledIn final : public Fields {
   void numbers(const Word&, std::span<Expression> numbers, std::span<const char* const>, std::size_t) override {
     for (Expression& number : numbers) number = next();
   }
-  void coordinate(const Word&, Expression&, Coordinate, const Word&, Expression&) override {}
-  void position(const Word&, Expression&) override {}
-  void speed(const Word&, Expression&) override {}
-  std::string state(const Word& word, Expression&) override { return word.unit; }
   Coordinate coordinateOf(const Word&, std::string&) override {
     refersToOthers = true;
     return Coordinate::angle;
   }
-  void timeFunction(const Word&, Expression&) override {}
-  void signal(const Word&, Expression&) override {}
-  void signals(const Word&, ExpressionVector&) override {}
-  void measure(const Word&) override {}
 
  private:
   double next() { return size_ /= 2; }
