@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mechanics/axis.hpp"
+#include "mechanics/description/described.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -69,6 +70,8 @@ int freedomOf(const Robot::Joint& joint);
 
 /// "revolute", …, as in the file.
 std::string_view wordOf(Robot::Type type);
+/// The type of element that says to be this one (Described::urdfTypes).
+const Described& elementOf(Robot::Type type);
 
 /// Throws StudyError, for files that no robot description is as large as, too.
 std::string textOfRobot(const std::string& path);

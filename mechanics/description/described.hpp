@@ -9,7 +9,8 @@
 // and, if some values make no sense, `std::vector<Fault> faults(const RangeOf& rangeOf) const`; if a range of values
 // makes none that a single value would not, `doubts(const RangeOf& nominal, const RangeOf& range) const` likewise. Its
 // assembly for every scalar is compiled where it is instantiated: for own types where they become a Described, for
-// those of the library once, by GAMUT_ASSEMBLE in their own file.
+// those of the library once, by GAMUT_ASSEMBLE in their own file. These have `static constexpr int order` too, their
+// place in the documentation, by which elements/all.* list them, and, where URDF has such joints, its words in `urdf`.
 #pragma once
 
 #include <functional>
@@ -52,6 +53,8 @@ class Described {
 
   std::string type() const { return model_->type(); }
   std::string summary() const { return model_->summary(); }
+  /// Types of joints in URDF files that it is; most are none.
+  std::vector<std::string> urdfTypes() const { return model_->urdfTypes(); }
   const std::string& name() const { return model_->name(); }
   void setName(std::string name) { model_->name() = std::move(name); }
   /// The element itself, if it is a T, else null.
@@ -76,6 +79,7 @@ class Described {
     virtual std::unique_ptr<Concept> clone() const = 0;
     virtual std::string type() const = 0;
     virtual std::string summary() const = 0;
+    virtual std::vector<std::string> urdfTypes() const = 0;
     virtual std::string& name() = 0;
     virtual void describe(Fields& fields) = 0;
 #define GAMUT_ASSEMBLED_BY(FUNCTION, SCALAR) virtual void FUNCTION(Assembler<SCALAR>& assembler) const = 0;
@@ -91,6 +95,10 @@ class Described {
     std::unique_ptr<Concept> clone() const override { return std::make_unique<Model>(element); }
     std::string type() const override { return T::type; }
     std::string summary() const override { return T::summary; }
+    std::vector<std::string> urdfTypes() const override {
+      if constexpr (requires { T::urdf; }) return {T::urdf.begin(), T::urdf.end()};
+      return {};
+    }
     std::string& name() override { return element.name; }
     void describe(Fields& fields) override { element.describe(fields); }
 #define GAMUT_ASSEMBLED_BY(FUNCTION, SCALAR) \

@@ -1,4 +1,4 @@
-// All types of elements; a new one is entered here and in all.cpp.
+// All types of elements: written by CMakeLists.txt of mechanics from what stands in this folder.
 #pragma once
 
 #include "mechanics/element_types.hpp"

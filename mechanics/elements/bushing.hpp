@@ -10,6 +10,7 @@ namespace gamut {
 /// moment is −κ_x sin φ; for small turns about any axes, −κ_i φ_i. Regular everywhere.
 struct Bushing {
   static constexpr const char* type = "bushing";
+  static constexpr int order = 170;  ///< in the documentation
   static constexpr const char* summary =
       "an elastic bushing, with springs and dampers along and about the axes of `from`; about an axis the moment is "
       "`angular_stiffness` times the sine of the turn: linear while turns are small; turns about several axes have the "

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Coupling {
   static constexpr const char* type = "coupling";
+  static constexpr int order = 280;  ///< in the documentation
   static constexpr const char* summary =
       "a gear between two joints: one coordinate is `ratio` times another plus `offset`, and hands its force on to it; "
       "what teeth, belts or ropes do to bearings besides is not modelled";

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Cylindrical {
   static constexpr const char* type = "cylindrical";
+  static constexpr int order = 40;  ///< in the documentation
   static constexpr const char* summary = "a sleeve: `to` slides along an axis and turns about it";
 
   std::string name, from, to;

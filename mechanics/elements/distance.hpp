@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Distance {
   static constexpr const char* type = "distance";
+  static constexpr int order = 300;  ///< in the documentation
   static constexpr const char* summary = "measures the distance between points of two frames, which must never meet";
 
   std::string name, from, to;

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Drive {
   static constexpr const char* type = "drive";
+  static constexpr int order = 260;  ///< in the documentation
   static constexpr const char* summary =
       "a joint's coordinate as an expression of time `t`, instead of a state; its rate and acceleration follow";
 
@@ -20,6 +21,7 @@ struct Drive {
 
 struct TableDrive {
   static constexpr const char* type = "table-drive";
+  static constexpr int order = 270;  ///< in the documentation
   static constexpr const char* summary =
       "a joint's coordinate by a table in a CSV file, joined by a natural cubic spline; rate and acceleration follow, "
       "and before and behind the table it goes on at a steady rate";

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Force {
   static constexpr const char* type = "force";
+  static constexpr int order = 240;  ///< in the documentation
   static constexpr const char* summary =
       "a force and a moment on a frame, constant or expressions of time and of the motion";
 

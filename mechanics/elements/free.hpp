@@ -1,6 +1,7 @@
 // Free joint: `to` moves as it likes, in six degrees of freedom.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@ namespace gamut {
 
 struct Free {
   static constexpr const char* type = "free";
+  static constexpr int order = 110;  ///< in the documentation
+  static constexpr std::array urdf = {"floating"};
   static constexpr const char* summary =
       "no joint: `to` moves as it likes; its orientation is a unit quaternion, `NAME.quaternion.w` … "
       "`NAME.quaternion.z`, which is nowhere singular";

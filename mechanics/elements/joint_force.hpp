@@ -7,6 +7,7 @@ namespace gamut {
 
 struct JointForce {
   static constexpr const char* type = "joint-force";
+  static constexpr int order = 250;  ///< in the documentation
   static constexpr const char* summary =
       "a force (N), or a moment (N m), that drives a joint: a nonlinear spring, friction, a controller";
 

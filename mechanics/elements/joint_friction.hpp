@@ -8,6 +8,7 @@ namespace gamut {
 /// Q = −F sign(q̇) − d q̇.
 struct JointFriction {
   static constexpr const char* type = "joint-friction";
+  static constexpr int order = 180;  ///< in the documentation
   static constexpr const char* summary =
       "Coulomb and viscous friction on a joint; where it holds the joint, it holds it fast, with what force that takes";
 
@@ -23,6 +24,7 @@ struct JointFriction {
 /// Q = −F tanh(q̇/v) − d q̇.
 struct SmoothedJointFriction {
   static constexpr const char* type = "smoothed-joint-friction";
+  static constexpr int order = 190;  ///< in the documentation
   static constexpr const char* summary =
       "Coulomb friction smoothed about standstill, and viscous friction: a joint under load creeps where it would "
       "stick";

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct JointSpring {
   static constexpr const char* type = "joint-spring";
+  static constexpr int order = 160;  ///< in the documentation
   static constexpr const char* summary = "a spring and viscous friction on a joint";
 
   std::string name, joint;

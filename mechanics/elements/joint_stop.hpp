@@ -9,6 +9,7 @@ namespace gamut {
 /// J. Appl. Mech. 42, 1975, with exponent 1), which does not jump at contact.
 struct JointStop {
   static constexpr const char* type = "joint-stop";
+  static constexpr int order = 200;  ///< in the documentation
   static constexpr const char* summary =
       "elastic stops at both ends of a joint's travel: `stiffness` times depth times (1 + `damping` times the speed of "
       "entering); what leaves faster than 1/`damping` is held back";

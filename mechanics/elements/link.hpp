@@ -2,12 +2,16 @@
 // before has reached.
 #pragma once
 
+#include <array>
+
 #include "mechanics/description/described.hpp"
 
 namespace gamut {
 
 struct Link {
   static constexpr const char* type = "link";
+  static constexpr int order = 130;  ///< in the documentation
+  static constexpr std::array urdf = {"fixed"};
   static constexpr const char* summary = "a rigid rod: `to` lies at a place of `from`, turned by fixed rotations";
 
   std::string name, from, to;

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Mass {
   static constexpr const char* type = "mass";
+  static constexpr int order = 140;  ///< in the documentation
   static constexpr const char* summary = "a body fixed to a frame; without `inertia` a point mass";
 
   std::string name, at;

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Motor {
   static constexpr const char* type = "motor";
+  static constexpr int order = 230;  ///< in the documentation
   static constexpr const char* summary =
       "a motor that turns a joint by an ideal gear: its moment times `ratio`, and its rotor's inertia times `ratio` "
       "squared; gyroscopic moments of the rotor are not modelled, and its mass belongs to the body that carries it";

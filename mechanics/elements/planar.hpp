@@ -1,12 +1,16 @@
 // Planar joint: `to` slides in a plane and turns about its normal.
 #pragma once
 
+#include <array>
+
 #include "mechanics/description/described.hpp"
 
 namespace gamut {
 
 struct Planar {
   static constexpr const char* type = "planar";
+  static constexpr int order = 60;  ///< in the documentation
+  static constexpr std::array urdf = {"planar"};
   static constexpr const char* summary =
       "a planar joint: `to` slides in a plane of the axes of `from` and turns about its normal";
 

@@ -14,6 +14,7 @@ namespace gamut {
 /// (K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42, 1975, with exponent 1). It does not jump at contact.
 struct PlaneContact {
   static constexpr const char* type = "plane-contact";
+  static constexpr int order = 220;  ///< in the documentation
   static constexpr const char* summary =
       "a point, or a sphere, of `to` that touches a plane fixed in `from`. It is pushed out by `stiffness` times depth "
       "times (1 + `damping` times the speed of entering), and never pulled in. Friction is against the slip u of the "

@@ -1,12 +1,16 @@
 // Prismatic joint or slider: `to` slides along an axis.
 #pragma once
 
+#include <array>
+
 #include "mechanics/description/described.hpp"
 
 namespace gamut {
 
 struct Prismatic {
   static constexpr const char* type = "prismatic";
+  static constexpr int order = 20;  ///< in the documentation
+  static constexpr std::array urdf = {"prismatic"};
   static constexpr const char* summary = "a slider: `to` slides along an axis";
 
   std::string name, from, to;

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct RelativeMotion {
   static constexpr const char* type = "relative-motion";
+  static constexpr int order = 310;  ///< in the documentation
   static constexpr const char* summary =
       "measures how a frame, or a point of it, moves and is turned as another frame sees it";
 

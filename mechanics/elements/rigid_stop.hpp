@@ -8,6 +8,7 @@ namespace gamut {
 /// q̇⁺ = −e q̇⁻ where q = at (Newton's law of impact), by an impulse that works on q alone; equations/unfolding.hpp.
 struct RigidStop {
   static constexpr const char* type = "rigid-stop";
+  static constexpr int order = 210;  ///< in the documentation
   static constexpr const char* summary =
       "a rigid end of a joint's travel, which the joint strikes and leaves at `restitution` times its speed (Newton's "
       "law of impact); all other joints get what the impulse at the joint gives them. By ever smaller impacts it comes "

@@ -11,6 +11,7 @@ namespace gamut {
 
 struct RollingBall {
   static constexpr const char* type = "rolling-ball";
+  static constexpr int order = 100;  ///< in the documentation
   static constexpr const char* summary =
       "a ball that rolls without slip on the plane of x and y of `from`, above it, and turns on the spot without "
       "resistance. `to` is in its centre; its orientation is a unit quaternion, `NAME.quaternion.w` … "

@@ -10,6 +10,7 @@ namespace gamut {
 
 struct RollingWheel {
   static constexpr const char* type = "rolling-wheel";
+  static constexpr int order = 90;  ///< in the documentation
   static constexpr const char* summary =
       "a wheel, a coin, a hoop that rolls without slip on the plane of x and y of `from`, above it, and turns on the "
       "spot without resistance. `to` is in its centre, with y as its axle; all of it may lean, by less than 90 "

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Screw {
   static constexpr const char* type = "screw";
+  static constexpr int order = 30;  ///< in the documentation
   static constexpr const char* summary = "a screw: `to` turns about an axis and slides along it in proportion";
 
   std::string name, from, to;

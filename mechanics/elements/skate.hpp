@@ -9,6 +9,7 @@ namespace gamut {
 
 struct Skate {
   static constexpr const char* type = "skate";
+  static constexpr int order = 80;  ///< in the documentation
   static constexpr const char* summary =
       "an edge that glides: `to` moves in the plane of x and y of `from` along its own x and turns about z, but never "
       "slips sideways: a skate, or a cart on an axle with two wheels, which turns about the middle of that axle";

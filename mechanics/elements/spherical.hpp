@@ -11,6 +11,7 @@ namespace gamut {
 
 struct Spherical {
   static constexpr const char* type = "spherical";
+  static constexpr int order = 70;  ///< in the documentation
   static constexpr const char* summary =
       "a ball and socket: `to` turns as it likes; its orientation is a unit quaternion, `NAME.quaternion.w` … "
       "`NAME.quaternion.z`, which is nowhere singular";

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Spring {
   static constexpr const char* type = "spring-damper";
+  static constexpr int order = 150;  ///< in the documentation
   static constexpr const char* summary =
       "a spring and a damper in parallel between points of two frames, which must never meet";
 

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct State {
   static constexpr const char* type = "state";
+  static constexpr int order = 290;  ///< in the documentation
   static constexpr const char* summary =
       "a quantity with a rate of its own, of the element's name: a controller, an actuator, or a plain differential "
       "equation";

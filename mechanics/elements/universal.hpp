@@ -9,6 +9,7 @@ namespace gamut {
 
 struct Universal {
   static constexpr const char* type = "universal";
+  static constexpr int order = 50;  ///< in the documentation
   static constexpr const char* summary =
       "a universal (cardan) joint: `to` turns about `axis`, fixed in `from`, then about `second_axis`, fixed in `to`";
 

@@ -7,6 +7,7 @@ namespace gamut {
 
 struct Weld {
   static constexpr const char* type = "weld";
+  static constexpr int order = 120;  ///< in the documentation
   static constexpr const char* summary =
       "a fixed connection: `to` stands where `from` stands, turned by fixed rotations";
 

@@ -15,6 +15,21 @@ namespace {
 
 constexpr std::array<const char*, 3> turns = {"roll", "pitch", "yaw"};
 
+/// Gives a joint its frames and its axis.
+class Placing final : public Onlooker {
+ public:
+  Placing(std::string from, std::string to, const Axis& axis)
+      : from_(std::move(from)), to_(std::move(to)), axis_(axis) {}
+
+  void frame(const Word& /*word*/, std::string& name) override { name = from_; }
+  void movedFrame(const Word& /*word*/, std::string& name, const std::string& /*from*/) override { name = to_; }
+  void axis(const Word& /*word*/, Axis& axis) override { axis = axis_; }
+
+ private:
+  std::string from_, to_;
+  Axis axis_;
+};
+
 class RobotElements {
  public:
   RobotElements(const Robot& robot, const RobotChoices& choices, Mechanism& mechanism)
@@ -93,19 +108,14 @@ class RobotElements {
   }
 
   Described movable(const Robot::Joint& joint, const std::string& from) const {
-    switch (joint.type) {
-      case Robot::Type::prismatic:
-        return Prismatic{joint.name, from, joint.child, joint.axis};
-      case Robot::Type::planar:
-        if (!joint.axis.isAligned())
-          refuse(joint.line, fmt::format("the plane of '{}' is across ({})", joint.name, joint.direction),
-                 "a plane across an axis of its origin, 1 0 0, 0 1 0 or 0 0 1, which may be turned");
-        return Planar{joint.name, from, joint.child, joint.axis};
-      case Robot::Type::floating:
-        return Free{joint.name, from, joint.child};
-      default:
-        return Revolute{joint.name, from, joint.child, joint.axis};
-    }
+    if (joint.type == Robot::Type::planar && !joint.axis.isAligned())
+      refuse(joint.line, fmt::format("the plane of '{}' is across ({})", joint.name, joint.direction),
+             "a plane across an axis of its origin, 1 0 0, 0 1 0 or 0 0 1, which may be turned");
+    Described element = elementOf(joint.type);
+    element.setName(joint.name);
+    Placing placing(from, joint.child, joint.axis);
+    element.describe(placing);
+    return element;
   }
 
   /// Those that follow others after these.

@@ -12,6 +12,7 @@
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/units.hpp"
+#include "mechanics/element_types.hpp"
 #include "mechanics/elements/inertia.hpp"
 #include "studies/readable.hpp"
 #include "studies/reading/xml_source.hpp"
@@ -29,6 +30,24 @@ constexpr std::uintmax_t mostBytes = 4'000'000;  // meshes lie in files of their
 constexpr std::pair<Robot::Type, std::string_view> types[] = {
     {Robot::Type::revolute, "revolute"}, {Robot::Type::continuous, "continuous"}, {Robot::Type::prismatic, "prismatic"},
     {Robot::Type::fixed, "fixed"},       {Robot::Type::planar, "planar"},         {Robot::Type::floating, "floating"}};
+
+/// By how many coordinates and speeds a joint of this type moves.
+class Freedom final : public Onlooker {
+ public:
+  explicit Freedom(Robot::Type type) {
+    Described element = elementOf(type);
+    element.describe(*this);
+  }
+
+  int coordinates = 0, speeds = 0;
+
+  void coordinate(const Word& /*position*/, Expression& /*initial*/, Coordinate /*kind*/, const Word& /*rate*/,
+                  Expression& /*initialRate*/) override {
+    ++coordinates;
+    ++speeds;
+  }
+  void speed(const Word& /*word*/, Expression& /*initial*/) override { ++speeds; }
+};
 
 template <class Named>
 auto find(const std::vector<Named>& all, const std::string& name) {
@@ -344,15 +363,19 @@ std::string_view wordOf(Robot::Type type) {
   return std::ranges::find(types, type, &std::pair<Robot::Type, std::string_view>::first)->second;
 }
 
-bool hasCoordinate(const Robot::Joint& joint) {
-  return joint.type == Robot::Type::revolute || joint.type == Robot::Type::continuous ||
-         joint.type == Robot::Type::prismatic;
+const Described& elementOf(Robot::Type type) {
+  static const std::vector<Described> elements = elementTypes();
+  const std::string word(wordOf(type));
+  return *std::ranges::find_if(elements,
+                               [&](const Described& one) { return std::ranges::count(one.urdfTypes(), word) > 0; });
 }
 
-int freedomOf(const Robot::Joint& joint) {
-  if (hasCoordinate(joint)) return joint.mimic ? 0 : 1;
-  return joint.type == Robot::Type::planar ? 3 : joint.type == Robot::Type::floating ? 6 : 0;
+bool hasCoordinate(const Robot::Joint& joint) {
+  const Freedom own(joint.type);
+  return own.coordinates == 1 && own.speeds == 1;
 }
+
+int freedomOf(const Robot::Joint& joint) { return joint.mimic ? 0 : Freedom(joint.type).speeds; }
 
 std::string textOfRobot(const std::string& path) {
   const std::string expected = "a robot's description (URDF)";
