@@ -12,6 +12,7 @@
 #include "scalars/program/differentiation.hpp"
 #include "tests/mechanics/every_joint.hpp"
 #include "tests/mechanics/machines.hpp"
+#include "tests/mechanics/toy/parallel_cranks.hpp"
 #include "tests/scalars/high_precision.hpp"
 
 namespace gamut {
@@ -195,6 +196,13 @@ TEST_P(JointLaws, KeepTheEnergy) {
   }
 }
 
+/// Those of the library, and one whose motion changes with its position.
+std::vector<Described> allJoints() {
+  std::vector<Described> types = elementTypes();
+  types.emplace_back(testing::ParallelCranks{});
+  return testing::jointTypes(types);
+}
+
 std::string nameOfLaw(const ::testing::TestParamInfo<std::tuple<Described, Around>>& law) {
   std::string name = std::get<0>(law.param).type() + testing::nameOf(std::get<1>(law.param));
   std::erase(name, '-');
@@ -202,7 +210,7 @@ std::string nameOfLaw(const ::testing::TestParamInfo<std::tuple<Described, Aroun
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, JointLaws,
-                         ::testing::Combine(::testing::ValuesIn(testing::jointTypes()),
+                         ::testing::Combine(::testing::ValuesIn(allJoints()),
                                             ::testing::ValuesIn(testing::everySurrounding)),
                          nameOfLaw);
 
