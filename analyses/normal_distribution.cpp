@@ -75,6 +75,10 @@ Interval normalBelow(const Interval& z) {
 
 double aboutNormalBelow(double z) { return gsl_cdf_ugaussian_P(z); }
 
+double aboutNormalAbove(double z) { return gsl_cdf_ugaussian_Q(z); }
+
 double aboutNormalQuantile(double probability) { return gsl_cdf_ugaussian_Pinv(probability); }
+
+double aboutNormalUpperQuantile(double probability) { return gsl_cdf_ugaussian_Qinv(probability); }
 
 }  // namespace gamut

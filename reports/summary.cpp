@@ -442,6 +442,10 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
   std::vector<std::string> numbers;
   double lower = uncertain.lower, upper = uncertain.upper;
   const Told told(uncertain);
+  bool areIntervals = false;
+  const auto isListed = [](const std::string& number) {  // among many
+    return number.starts_with("value ") || number.starts_with("weight ") || number.starts_with("membership ");
+  };
   for (const ShapeInfo& number : results.shapes) {
     if (number.quantity != uncertain.name || number.shape != shape) continue;
     const bool isOfQuantity = number.unit == uncertain.unit && number.unit != unit::one;
@@ -452,25 +456,27 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
       upper = number.value;
     } else if (number.name.ends_with(", at most") && !numbers.empty()) {
       numbers.back() += " to " + value;
-    } else if (name == "trapezoidal" && number.name == "left") {
+    } else if (number.name == "left") {
       numbers.push_back("core " + value);  // as the study states it
-    } else if (name == "trapezoidal" && number.name == "right" && !numbers.empty()) {
+    } else if (number.name == "right" && !numbers.empty()) {
       numbers.back() += " to " + value;
-    } else if (name == "evidence") {
-      if (number.name.starts_with("lower"))
-        numbers.push_back("[" + value);
-      else if (!numbers.empty())
-        numbers.back() += number.name.starts_with("upper") ? fmt::format(", {}]", value) : " mass " + value;
+    } else if (number.name.starts_with("lower ")) {
+      numbers.push_back("[" + value);
+    } else if (number.name.starts_with("upper ") && !numbers.empty()) {
+      numbers.back() += fmt::format(", {}]", value);
+    } else if (number.name.starts_with("mass ") && !numbers.empty()) {
+      numbers.back() += " mass " + value;
+      areIntervals = true;
     } else if (number.name == "cut_off") {
       numbers.push_back(numberText(100 * number.value, 3) + " % cut off");
-    } else if (name != "table" && name != "histogram" && !number.name.starts_with("value ")) {
+    } else if (!isListed(number.name)) {
       const bool isOfLogarithm = number.name.starts_with("log_mean") && told.unit() != uncertain.unit;
       numbers.push_back(fmt::format("{}{} {}", number.name,
                                     isOfLogarithm ? fmt::format(" (of the number in {})", uncertain.unit) : "", value));
     }
   }
   constexpr std::size_t most = 6;  // of evidence
-  if (name == "evidence" && numbers.size() > most) {
+  if (areIntervals && numbers.size() > most) {
     const std::string others = countText(static_cast<long long>(numbers.size() - most), "more interval");
     numbers.resize(most);
     numbers.push_back(others);

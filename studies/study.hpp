@@ -160,9 +160,10 @@ struct FilesAtHand {
 };
 
 /// The same for text at hand; `name` is what messages call the file, and where paths of other files begin; with
-/// `files`, none of them is looked for.
+/// `files`, none of them is looked for. Distributions and memberships are of `shapes`, to which own ones may be added.
 Study readStudyText(const std::string& text, const std::string& name,
-                    const std::vector<Described>& types = elementTypes(), const std::optional<FilesAtHand>& files = {});
+                    const std::vector<Described>& types = elementTypes(), const std::optional<FilesAtHand>& files = {},
+                    const ShapeTypes& shapes = {});
 
 /// The mechanism of a study alone, by which a study may begin: of the rest, no more is asked than that it is TOML.
 Mechanism readMechanismText(const std::string& text, const std::string& name,

@@ -1,12 +1,10 @@
 #include "analyses/probability/quantity_masses.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
@@ -90,10 +88,9 @@ class Edges {
 
 namespace {
 
-/// Exponentials and powers take MPFR, series take many terms; of what is not known exactly there are up to 16 of each.
+/// Of what is not known exactly there are up to 16 of each.
 Work::Kind kindOf(const Distribution& distribution) {
-  const bool isSlow = std::ranges::any_of(std::array<std::string_view, 4>{"beta", "weibull", "gamma", "exponential"},
-                                          [&](std::string_view name) { return distribution.name() == name; });
+  const bool isSlow = distribution.isSlow();
   if (distribution.isPrecise()) return isSlow ? Work::preciseEdge : Work::quickEdge;
   return isSlow ? Work::vagueEdge : Work::preciseEdge;
 }

@@ -1,12 +1,12 @@
-// How probable and how possible the values of an uncertain quantity are, as a study states it.
+// How probable and how possible the values of an uncertain quantity are, as a study states it: by what distributions
+// and membership functions say of themselves.
 #include "studies/reading/shape_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
-#include <limits>
+#include <memory>
 #include <utility>
 
 #include "analyses/consistency.hpp"
@@ -17,355 +17,230 @@ namespace gamut {
 namespace {
 
 constexpr Dimension plain{};
+constexpr const char* induced = "induced";
 
-class ShapeReader {
+/// The words of a shape.
+class ShapeKeys : public ShapeFields {
  public:
-  ShapeReader(const TomlSource& source, const TomlSection& section, const TableFiles& files)
-      : source_(source), section_(section), files_(files) {}
-
-  /// What distribution and membership are stated on; empty if neither says so.
-  Interval supports(const UncertainQuantity& quantity) const {
-    const Dimension dimension = dimensionOf(quantity.unit);
-    Interval range = Interval::empty();
-    for (const char* key : {"distribution", "membership"}) {
-      const toml::node* node = section_.find(key);
-      if (node == nullptr || !node->is_table()) continue;
-      const toml::table& table = *node->as_table();
-      const std::string name = section_.nameOf(key);
-      if (const toml::node* support = table.get("support"))
-        range = hull(range, readPair(source_, *support, name + ".support", dimension));
-      if (const toml::node* points = table.get("points"); points != nullptr && points->is_array())
-        for (const toml::node& point : *points->as_array())
-          if (point.is_array() && !point.as_array()->empty())
-            range = hull(range, enclose(source_.asAmount((*point.as_array())[0], name + ".points", dimension)));
-      if (std::string_view(key) != "distribution") continue;
-      std::string type;
-      const TomlSection keys = kind(section_, *node, key, kindsOfDistribution(), type);
-      if (type == "evidence")
-        for (const FocalInterval& focal : evidenceOf(keys, quantity).focal) range = hull(range, focal.values);
-      if (type != "histogram" && type != "empirical") continue;
-      for (const Amount& value :
-           type == "histogram" ? histogramOf(keys, quantity).edges : valuesOf(keys, quantity).values)
-        range = hull(range, enclose(value));
-    }
-    return range;
+  template <class Type>
+  explicit ShapeKeys(const Type& type) {
+    type()->describe(*this);
   }
 
-  /// Both, each perhaps from the other.
-  void read(UncertainQuantity& result) const {
-    const bool isInduced[] = {isOf("distribution", "induced"), isOf("membership", "induced")};
-    if (isInduced[0] && isInduced[1])
-      source_.fail(*section_.find("membership"), "distribution and membership are each to follow from the other",
-                   "one of the two to be stated");
-    if (isInduced[0]) {
-      readMembership(result);
-      readDistribution(result);
-    } else {
-      readDistribution(result);
-      readMembership(result);
+  void support(Interval& /*support*/) override { words.push_back({.key = "support", .meaning = ""}); }
+  void number(const ShapeWord& word, double& /*number*/) override { words.push_back(word); }
+  void parameter(const ShapeWord& word, Trend /*trend*/, Interval& /*number*/) override { words.push_back(word); }
+  void pair(const ShapeWord& word, const std::array<std::string, 2>& names, Interval& /*pair*/) override {
+    words.push_back(word);
+    words.back().meaning = fmt::format("`[{}, {}]`, {}", names[0], names[1], word.meaning);
+  }
+  void points(const ShapeWord& word, std::vector<Point>& /*points*/) override { words.push_back(word); }
+  void list(const ShapeWord& word, const std::string& /*expected*/, StatedNumbers& /*numbers*/,
+            bool /*mayBeEmpty*/) override {
+    words.push_back(word);
+  }
+  void intervals(const ShapeWord& word, const std::string& /*expected*/, StatedNumbers& /*intervals*/) override {
+    words.push_back(word);
+  }
+  bool file(const std::vector<Column>& wanted, std::vector<StatedNumbers>& /*columns*/) override {
+    std::vector<std::string> headings;
+    for (const Column& column : wanted)
+      if (!column.isNamedByKey) headings.push_back("`" + column.name + "`");
+    const std::string named = headings.empty() ? "" : fmt::format(", with columns {}", fmt::join(headings, ", "));
+    words.push_back({.key = "file", .meaning = "a CSV file instead" + named});
+    for (const Column& column : wanted)
+      if (column.isNamedByKey) words.push_back({.key = column.name, .meaning = "the name of its column"});
+    return false;
+  }
+
+  std::vector<std::string> keys() const {
+    std::vector<std::string> keys;
+    for (const ShapeWord& word : words) keys.push_back(word.key);
+    return keys;
+  }
+
+  std::vector<ShapeWord> words;
+};
+
+/// A table of the guide.
+template <class Type>
+std::string tableOf(const char* heading, const std::vector<Type>& types) {
+  std::string text = fmt::format("| {} | what it is | its keys |\n|---|---|---|\n", heading);
+  for (const Type& type : types) {
+    std::vector<std::string> keys;
+    for (const ShapeWord& word : ShapeKeys(type).words)
+      keys.push_back(fmt::format("`{}`{}{}{}{}", word.key, word.meaning.empty() ? "" : ": ", word.meaning,
+                                 word.isOfQuantity ? "" : ", without unit",
+                                 word.isNominal ? "; the nominal value unless given" : ""));
+    text += fmt::format("| `{}` | {} | {} |\n", type()->name(), type()->summary(), fmt::join(keys, "<br>"));
+  }
+  return text;
+}
+
+/// The lists of a shape, or the file that stands for them.
+class StatedShape : public ShapeFields {
+ public:
+  StatedShape(const TableFiles& files, const TomlSection& section, const UncertainQuantity& quantity)
+      : section_(section),
+        source_(section.source()),
+        files_(files),
+        quantity_(quantity),
+        dimension_(dimensionOf(quantity.unit)),
+        file_(section.find("file")) {}
+
+  void list(const ShapeWord& word, const std::string& expected, StatedNumbers& numbers, bool mayBeEmpty) override {
+    if (file_ != nullptr) return refuseBesideFile(word);
+    const std::string what = section_.nameOf(word.key);
+    const toml::array& entries = source_.asArray(section_.require(word.key, expected), what);
+    if (entries.empty() && !mayBeEmpty) source_.fail(entries, what + " is empty", "one value at least");
+    for (const toml::node& entry : entries)
+      numbers.push_back(statedAs(source_.asAmount(entry, what, dimensionOfWord(word)), numbers.size()));
+  }
+
+  void intervals(const ShapeWord& word, const std::string& expected, StatedNumbers& intervals) override {
+    areIntervals_ = true;
+    if (file_ != nullptr) return refuseBesideFile(word);
+    const std::string what = section_.nameOf(word.key);
+    for (const toml::node& entry : source_.asArray(section_.require(word.key, expected), what)) {
+      const Interval pair = readPair(source_, entry, what, dimensionOfWord(word));
+      intervals.push_back({pair, midpoint(pair), intervals.size()});
     }
   }
+
+  bool file(const std::vector<Column>& wanted, std::vector<StatedNumbers>& columns) override {
+    if (file_ == nullptr) return false;
+    std::vector<WantedColumn> named;
+    for (const Column& column : wanted)
+      named.push_back({column.isNamedByKey ? section_.text(column.name) : column.name,
+                       column.isOfQuantity ? quantity_.unit : std::string(unit::one)});
+    const TableFiles::Columns read = files_.columns(*file_, section_.nameOf("file"), named);
+    lines_ = read.lines;
+    for (const std::vector<Amount>& column : read.values) {
+      columns.emplace_back();
+      for (const Amount& amount : column) columns.back().push_back(statedAs(amount, columns.back().size()));
+    }
+    return true;
+  }
+
+  /// Throws StudyError at what a shape refuses.
+  [[noreturn]] void fail(const ShapeRefusal& refusal) const {
+    if (refusal.index) failAt(refusal.key, *refusal.index, refusal.problem, refusal.problem, refusal.expected);
+    source_.fail(*section_.find(refusal.key), refusal.problem, refusal.expected);
+  }
+
+ protected:
+  /// Of a list's entry, or of the row of the file that stands for it.
+  [[noreturn]] void failAt(const std::string& key, std::size_t index, const std::string& ofFile,
+                           const std::string& ofList, const std::string& expected) const {
+    if (file_ != nullptr) files_.fail(*file_, lines_[index], ofFile, expected);
+    source_.fail((*section_.find(key)->as_array())[index], ofList, expected);
+  }
+  bool areIntervals() const { return areIntervals_; }
+  const Dimension& dimensionOfWord(const ShapeWord& word) const { return word.isOfQuantity ? dimension_ : plain; }
+
+  const TomlSection& section_;
+  const TomlSource& source_;
+  const TableFiles& files_;
+  const UncertainQuantity& quantity_;
+  Dimension dimension_;
 
  private:
-  bool isOf(const char* key, std::string_view type) const {
-    const toml::node* node = section_.find(key);
-    const toml::node* found = node != nullptr && node->is_table() ? node->as_table()->get("type") : nullptr;
-    return found != nullptr && found->value<std::string_view>() == type;
+  static StatedNumber statedAs(const Amount& amount, std::size_t at) { return {enclose(amount), nearest(amount), at}; }
+  void refuseBesideFile(const ShapeWord& word) const {
+    if (const toml::node* node = section_.find(word.key))
+      source_.fail(*node, fmt::format("there is a file beside {}", section_.nameOf(word.key)), "one of the two");
   }
 
-  using Kinds = std::vector<std::pair<std::string, std::vector<std::string>>>;
-  static const Kinds& kindsOfDistribution() {
-    static const Kinds kinds{{"uniform", {"support"}},
-                             {"triangular", {"support", "mode"}},
-                             {"normal", {"support", "mean", "deviation"}},
-                             {"beta", {"support", "a", "b"}},
-                             {"lognormal", {"support", "log_mean", "log_deviation"}},
-                             {"weibull", {"support", "shape", "scale"}},
-                             {"gamma", {"support", "shape", "scale"}},
-                             {"exponential", {"support", "mean"}},
-                             {"histogram", {"edges", "weights", "file"}},
-                             {"empirical", {"values", "file", "column"}},
-                             {"evidence", {"intervals", "masses", "file"}},
-                             {"induced", {}}};
-    return kinds;
+  const toml::node* file_;
+  std::vector<std::size_t> lines_;  ///< of the file's rows
+  bool areIntervals_ = false;
+};
+
+/// What a shape is stated on, the interval not being known.
+class ShapeSpan final : public StatedShape {
+ public:
+  using StatedShape::StatedShape;
+
+  void support(Interval& /*support*/) override {
+    if (const toml::node* node = section_.find("support"))
+      range = hull(range, readPair(source_, *node, section_.nameOf("support"), dimension_));
+  }
+  void points(const ShapeWord& word, std::vector<Point>& /*points*/) override {
+    const toml::node* node = section_.find(word.key);
+    if (node == nullptr || !node->is_array()) return;
+    for (const toml::node& point : *node->as_array())
+      if (point.is_array() && !point.as_array()->empty())
+        range = hull(range, enclose(source_.asAmount((*point.as_array())[0], section_.nameOf(word.key), dimension_)));
+  }
+  void within(const ShapeWord& /*list*/, const StatedNumbers& numbers) override {
+    for (const StatedNumber& number : numbers) range = hull(range, number.enclosed);
   }
 
-  void readDistribution(UncertainQuantity& result) const {
-    Uncertain& uncertain = result.uncertain;
-    uncertain.distribution = Distribution::uniform(uncertain.range);
-    const toml::node* node = section_.find("distribution");
-    if (node == nullptr) return;
-    std::string type;
-    const TomlSection table = kind(section_, *node, "distribution", kindsOfDistribution(), type);
-    const Dimension dimension = dimensionOf(result.unit);
-    const Interval on = support(table, result);
-    try {
-      if (type == "histogram") {
-        const Histogram read = histogramOf(table, result);
-        uncertain.distribution =
-            Distribution::histogram(doublesOf(table, "edges", {read.edges, read.lines}, result), read.weights);
-      }
-      if (type == "empirical")
-        uncertain.distribution = Distribution::empirical(doublesOf(table, "values", valuesOf(table, result), result));
-      if (type == "evidence") uncertain.distribution = Distribution::evidence(evidenceInside(table, result));
-      if (type == "induced") uncertain.distribution = distributionOf(uncertain.membership);
-      if (type == "uniform") uncertain.distribution = Distribution::uniform(on);
-      if (type == "triangular") {
-        const Interval mode = parameter(table, "mode", dimension, uncertain.nominal);
-        requireInside(table, "mode", mode, on);
-        uncertain.distribution = Distribution::triangular(on, mode);
-      }
-      if (type == "normal")
-        uncertain.distribution = Distribution::normal(on, parameter(table, "mean", dimension, uncertain.nominal),
-                                                      parameter(table, "deviation", dimension));
-      if (type == "beta")
-        uncertain.distribution = Distribution::beta(on, parameter(table, "a", plain), parameter(table, "b", plain));
-      if (type == "lognormal")
-        uncertain.distribution =
-            Distribution::lognormal(on, parameter(table, "log_mean", plain), parameter(table, "log_deviation", plain));
-      if (type == "weibull")
-        uncertain.distribution =
-            Distribution::weibull(on, parameter(table, "shape", plain), parameter(table, "scale", dimension));
-      if (type == "gamma")
-        uncertain.distribution =
-            Distribution::gamma(on, parameter(table, "shape", plain), parameter(table, "scale", dimension));
-      if (type == "exponential")
-        uncertain.distribution = Distribution::exponential(on, parameter(table, "mean", dimension, uncertain.nominal));
-    } catch (const std::invalid_argument& error) {
-      source_.failWith(*node, error.what(), "a distribution inside the interval");
+  Interval range = Interval::empty();
+};
+
+/// Fills in a shape, within the interval.
+class ShapeFilling final : public StatedShape {
+ public:
+  using StatedShape::StatedShape;
+
+  void support(Interval& support) override {
+    const toml::node* node = section_.find("support");
+    const Interval range = quantity_.uncertain.range;
+    support = node == nullptr ? range : readPair(source_, *node, section_.nameOf("support"), dimension_);
+    if (!isSubset(support, range)) {
+      const auto [inner, outer] = writtenApart(support, range);
+      source_.fail(*node, fmt::format("{} {} leaves the interval", section_.nameOf("support"), inner),
+                   fmt::format("a support inside {}", outer));
     }
+    support_ = support;
   }
 
-  // ---- Evidence -----------------------------------------------------------------------------------------------------
+  void number(const ShapeWord& word, double& number) override {
+    const toml::node* node = section_.find(word.key);
+    const Dimension& dimension = dimensionOfWord(word);
+    if (node == nullptr && word.isNominal)
+      number = quantity_.uncertain.nominal;
+    else
+      number = nearest(value(section_.require(word.key, fmt::format("a number in {}", unitOf(dimension))),
+                             section_.nameOf(word.key), dimension));
+    checkNumber(word, number);
+  }
 
-  struct Evidence {
-    std::vector<FocalInterval> focal;
-    std::vector<std::size_t> lines;  ///< where a file has them
-  };
-
-  /// Of lists in the study, or of a file's columns lower, upper and mass.
-  Evidence evidenceOf(const TomlSection& section, const UncertainQuantity& quantity) const {
-    constexpr const char *negative = "the mass is negative", *instead = "a mass of 0 or more";
-    Evidence read;
-    if (const toml::node* file = section.find("file")) {
-      refuseBeside(section, {"intervals", "masses"});
-      auto [columns, lines] =
-          files_.columns(*file, section.nameOf("file"),
-                         {{"lower", quantity.unit}, {"upper", quantity.unit}, {"mass", std::string(unit::one)}});
-      for (std::size_t row = 0; row < columns[0].size(); ++row) {
-        const Interval lower = enclose(columns[0][row]), upper = enclose(columns[1][row]);
-        if (lower.lower() > upper.upper())
-          files_.fail(*file, lines[row], "upper lies below lower", "intervals from lower to upper");
-        if (columns[2][row].value < 0) files_.fail(*file, lines[row], negative, instead);
-        read.focal.push_back({hull(lower, upper), enclose(columns[2][row])});
-      }
-      read.lines = std::move(lines);
-      return read;
+  /// The nearest double, or an interval [least, greatest] of what it may be.
+  void parameter(const ShapeWord& word, Trend /*trend*/, Interval& number) override {
+    const toml::node* node = section_.find(word.key);
+    const Dimension& dimension = dimensionOfWord(word);
+    if (node == nullptr && word.isNominal) {
+      number = quantity_.uncertain.nominal;
+    } else {
+      const toml::node& found =
+          section_.require(word.key, fmt::format("a number in {}, or an interval of such numbers", unitOf(dimension)));
+      const std::string what = section_.nameOf(word.key);
+      number = found.is_array()
+                   ? readPair(source_, found, what, dimension)
+                   : Interval(nearest(value(found, what, dimension, ", or an interval of values [lower, upper]")));
     }
-    const toml::node& intervals = section.require("intervals", "[[lower, upper], ...], or a file");
-    const toml::node& masses = section.require("masses", "one mass an interval");
-    for (const toml::node& entry : source_.asArray(intervals, section.nameOf("intervals")))
-      read.focal.push_back({readPair(source_, entry, section.nameOf("intervals"), dimensionOf(quantity.unit))});
-    const toml::array& all = source_.asArray(masses, section.nameOf("masses"));
-    if (all.size() != read.focal.size())
-      source_.fail(masses, fmt::format("{} masses stand beside {} intervals", all.size(), read.focal.size()),
-                   "one mass an interval");
-    for (std::size_t i = 0; i < read.focal.size(); ++i) {
-      const Amount mass = source_.asAmount(all[i], section.nameOf("masses"), plain);
-      if (mass.value < 0) source_.fail(all[i], negative, instead);
-      read.focal[i].mass = enclose(mass);
-    }
-    return read;
+    checkNumber(word, number);
   }
 
-  std::vector<FocalInterval> evidenceInside(const TomlSection& section, const UncertainQuantity& quantity) const {
-    const Evidence read = evidenceOf(section, quantity);
-    for (std::size_t i = 0; i < read.focal.size(); ++i) {
-      if (isSubset(read.focal[i].values, quantity.uncertain.range)) continue;
-      const auto [inner, outer] = writtenApart(read.focal[i].values, quantity.uncertain.range);
-      const std::string problem = inner + " leaves the interval", expected = "intervals inside " + outer;
-      if (!read.lines.empty()) files_.fail(*section.find("file"), read.lines[i], problem, expected);
-      source_.fail((*section.find("intervals")->as_array())[i], section.nameOf("intervals") + ": " + problem, expected);
-    }
-    return read.focal;
+  void pair(const ShapeWord& word, const std::array<std::string, 2>& names, Interval& pair) override {
+    pair = readPair(source_, section_.require(word.key, fmt::format("[{}, {}]", names[0], names[1])),
+                    section_.nameOf(word.key), dimensionOfWord(word));
+    checkNumber(word, pair);
   }
 
-  // ---- Histograms and measurements ----------------------------------------------------------------------------------
-
-  struct Histogram {
-    std::vector<Amount> edges;
-    std::vector<double> weights;
-    std::vector<std::size_t> lines;  ///< of the edges, where a file has them
-  };
-  struct Values {
-    std::vector<Amount> values;
-    std::vector<std::size_t> lines;  ///< where a file has them
-  };
-
-  /// Of lists in the study, or of a file's columns lower, upper and weight, row by row from below; where one row ends
-  /// before the next begins, there is nothing between.
-  Histogram histogramOf(const TomlSection& section, const UncertainQuantity& quantity) const {
-    Histogram read;
-    auto& [edges, weights, lines] = read;
-    const toml::node* file = section.find("file");
-    if (file == nullptr) {
-      edges = amounts(section.require("edges", "[lower, ..., upper], or a file"), section.nameOf("edges"),
-                      dimensionOf(quantity.unit));
-      const toml::node& node = section.require("weights", "one weight between each two edges");
-      for (const Amount& weight : amounts(node, section.nameOf("weights"), plain)) weights.push_back(nearest(weight));
-      if (weights.size() + 1 != edges.size())
-        source_.fail(node, fmt::format("{} weights lie between {} edges", weights.size(), edges.size()),
-                     "one weight between each two edges");
-      return read;
-    }
-    refuseBeside(section, {"edges", "weights"});
-    const auto [columns, rows] =
-        files_.columns(*file, section.nameOf("file"),
-                       {{"lower", quantity.unit}, {"upper", quantity.unit}, {"weight", std::string(unit::one)}});
-    for (std::size_t row = 0; row < columns[0].size(); ++row) {
-      if (columns[2][row].value < 0) files_.fail(*file, rows[row], "the weight is negative", "a weight of 0 or more");
-      if (columns[1][row].value < columns[0][row].value)
-        files_.fail(*file, rows[row], "upper lies below lower", "lower, then what is not below it");
-      if (!edges.empty() && columns[0][row].value < edges.back().value)
-        files_.fail(*file, rows[row], "lower lies below the upper of the row before", "rows from below");
-      const bool isGap = !edges.empty() && edges.back().value != columns[0][row].value;
-      if (edges.empty() || isGap) {
-        edges.push_back(columns[0][row]);
-        lines.push_back(rows[row]);
-      }
-      if (isGap) weights.push_back(0);
-      edges.push_back(columns[1][row]);
-      lines.push_back(rows[row]);
-      weights.push_back(nearest(columns[2][row]));
-    }
-    if (std::ranges::none_of(weights, [](double weight) { return weight > 0; }))
-      files_.fail(*file, rows.front(), "no weight is above 0", "one at least");
-    return read;
-  }
-
-  void refuseBeside(const TomlSection& section, std::initializer_list<const char*> keys) const {
-    for (const char* key : keys)
-      if (const toml::node* node = section.find(key))
-        source_.fail(*node, fmt::format("there is a file beside {}", section.nameOf(key)), "one of the two");
-  }
-
-  Values valuesOf(const TomlSection& section, const UncertainQuantity& quantity) const {
-    const toml::node* file = section.find("file");
-    if (file == nullptr)
-      return {amounts(section.require("values", "[value, ...], or a file and its column"), section.nameOf("values"),
-                      dimensionOf(quantity.unit)),
-              {}};
-    refuseBeside(section, {"values"});
-    auto [columns, rows] = files_.columns(*file, section.nameOf("file"), {{section.text("column"), quantity.unit}});
-    return {std::move(columns[0]), std::move(rows)};
-  }
-
-  std::vector<Amount> amounts(const toml::node& node, const std::string& what, const Dimension& dimension) const {
-    std::vector<Amount> found;
-    if (source_.asArray(node, what).empty()) source_.fail(node, what + " is empty", "one value at least");
-    for (const toml::node& entry : source_.asArray(node, what))
-      found.push_back(source_.asAmount(entry, what, dimension));
-    return found;
-  }
-
-  /// Nearest doubles, but the least and the greatest, which are the support, rounded outward; in the interval, all.
-  std::vector<double> doublesOf(const TomlSection& section, const std::string& key, const Values& read,
-                                const UncertainQuantity& quantity) const {
-    const std::vector<Amount>& values = read.values;
-    std::vector<double> found;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!isSubset(enclose(values[i]), quantity.uncertain.range)) {
-        const auto [inner, outer] = writtenApart(enclose(values[i]), quantity.uncertain.range);
-        const std::string problem = fmt::format("{} has the value {} outside the interval", section.nameOf(key), inner),
-                          expected = "values inside " + outer;
-        if (i < read.lines.size()) files_.fail(*section.find("file"), read.lines[i], problem, expected);
-        source_.fail((*section.find(key)->as_array())[i], problem, expected);
-      }
-      found.push_back(nearest(values[i]));
-    }
-    if (found.empty()) return found;
-    const auto [least, greatest] = std::ranges::minmax_element(found);
-    *least = enclose(values[static_cast<std::size_t>(least - found.begin())]).lower();
-    *greatest = enclose(values[static_cast<std::size_t>(greatest - found.begin())]).upper();
-    return found;
-  }
-
-  void readMembership(UncertainQuantity& result) const {
-    Uncertain& uncertain = result.uncertain;
-    uncertain.membership = Membership::triangular(uncertain.range.lower(), uncertain.nominal, uncertain.range.upper());
-    const toml::node* node = section_.find("membership");
-    if (node == nullptr) return;
-    std::string type;
-    const TomlSection table = kind(section_, *node, "membership",
-                                   {{"triangular", {"support", "apex"}},
-                                    {"trapezoidal", {"support", "core"}},
-                                    {"gaussian", {"support", "centre", "deviation"}},
-                                    {"table", {"points"}},
-                                    {"induced", {}}},
-                                   type);
-    const Dimension dimension = dimensionOf(result.unit);
-    const Interval on = support(table, result);
-    try {
-      if (type == "triangular") {
-        const double apex = number(table, "apex", result, uncertain.nominal);
-        requireInside(table, "apex", apex, on);
-        uncertain.membership = Membership::triangular(on.lower(), apex, on.upper());
-      }
-      if (type == "trapezoidal") {
-        const Interval core =
-            readPair(source_, table.require("core", "[left, right]"), table.nameOf("core"), dimension);
-        requireInside(table, "core", core, on);
-        uncertain.membership = Membership::trapezoidal(on.lower(), core.lower(), core.upper(), on.upper());
-      }
-      if (type == "gaussian") {
-        const double centre = number(table, "centre", result, uncertain.nominal);
-        requireInside(table, "centre", centre, on);
-        const double deviation = requiredNumber(table, "deviation", dimension);
-        if (!(deviation > 0))
-          source_.fail(*table.find("deviation"), table.nameOf("deviation") + " is not positive", "a deviation above 0");
-        uncertain.membership = Membership::gaussian(on, centre, deviation);
-      }
-      if (type == "induced" && !uncertain.distribution.isPrecise())
-        source_.fail(*node, "a membership follows from one distribution, and there are several",
-                     "a membership of its own, or a distribution whose parameters are numbers");
-      if (const Interval& from = uncertain.distribution.support();
-          type == "induced" && !contains(from, uncertain.nominal))
-        source_.fail(*node,
-                     fmt::format("the nominal value {} lies outside the distribution's support {}",
-                                 written(uncertain.nominal), written(from)),
-                     "a distribution that holds it, or another membership");
-      if (type == "induced") uncertain.membership = membershipOf(uncertain.distribution, uncertain.nominal);
-      if (type == "table") uncertain.membership = tableOf(table, result);
-    } catch (const std::invalid_argument& error) {
-      source_.failWith(*node, error.what(), "a membership function inside the interval");
-    }
-  }
-
-  Membership tableOf(const TomlSection& section, const UncertainQuantity& quantity) const {
-    const toml::array& list = source_.asArray(
-        section.require("points", "[[value, membership], ...] with memberships from 0 to 1"), section.nameOf("points"));
-    try {
-      return Membership::table(points(list, section.nameOf("points"), quantity));
-    } catch (const Membership::BadPoint& error) {
-      const toml::array& point = *list[error.index].as_array();
-      const auto number = [&](std::size_t i) { return toString(nearest(source_.asAnyAmount(point[i], ""))); };
-      source_.fail(point,
-                   fmt::format("point {}, ({}, {}), of {} {}", error.index + 1, number(0), number(1),
-                               section.nameOf("points"), error.problem),
-                   "memberships from 0 to 1 that rise to 1, stay, and fall");
-    }
-  }
-
-  /// points = [[value, membership], ...]: nearest doubles, but the ends, which are the support, rounded outward.
-  std::vector<Membership::Point> points(const toml::array& list, const std::string& what,
-                                        const UncertainQuantity& quantity) const {
-    const Interval range = quantity.uncertain.range;
+  void points(const ShapeWord& word, std::vector<Point>& points) override {
+    const std::string what = section_.nameOf(word.key);
+    const toml::array& list =
+        source_.asArray(section_.require(word.key, "[[value, membership], ...] with memberships from 0 to 1"), what);
+    const Interval range = quantity_.uncertain.range;
     if (list.empty()) source_.fail(list, what + " is empty", "at least one point [value, membership]");
-    std::vector<Membership::Point> result;
+    points.clear();
     for (const toml::node& entry : list) {
       const toml::array& point = source_.asArray(entry, what);
       if (point.size() != 2) source_.fail(entry, what + " has a point that is no pair", "[value, membership]");
-      const Amount amount = source_.asAmount(point[0], what, dimensionOf(quantity.unit));
+      const Amount amount = source_.asAmount(point[0], what, dimension_);
       const bool isFirst = &entry == list.get(0), isLast = &entry == list.get(list.size() - 1);
       const double value = isFirst ? enclose(amount).lower() : isLast ? enclose(amount).upper() : nearest(amount);
       if (!contains(range, value)) {
@@ -373,45 +248,43 @@ class ShapeReader {
         source_.fail(point[0], fmt::format("{} has the value {} outside the interval", what, inner),
                      fmt::format("values inside {}", outer));
       }
-      if (!result.empty() && value < result.back().value)
+      if (!points.empty() && value < points.back().value)
         source_.fail(point[0],
-                     fmt::format("{} has the value {} after {}", what, written(value), written(result.back().value)),
+                     fmt::format("{} has the value {} after {}", what, written(value), written(points.back().value)),
                      "values that do not fall");
       const double degree = nearest(source_.asAmount(point[1], what, plain));
       if (!(degree >= 0 && degree <= 1))
         source_.fail(point[1], fmt::format("{} has the membership {}", what, toString(degree)),
                      "a membership from 0 to 1");
-      result.push_back({value, degree});
+      points.push_back({value, degree});
     }
-    return result;
   }
 
-  // ---- What both are made of -------------------------------------------------------------------------------------
-
-  Interval support(const TomlSection& section, const UncertainQuantity& quantity) const {
-    const toml::node* node = section.find("support");
-    const Interval range = quantity.uncertain.range;
-    if (node == nullptr) return range;
-    const Interval found = readPair(source_, *node, section.nameOf("support"), dimensionOf(quantity.unit));
-    if (!isSubset(found, range)) {
-      const auto [inner, outer] = writtenApart(found, range);
-      source_.fail(*node, fmt::format("{} {} leaves the interval", section.nameOf("support"), inner),
-                   fmt::format("a support inside {}", outer));
+  void within(const ShapeWord& list, const StatedNumbers& numbers) override {
+    const std::string what = section_.nameOf(list.key);
+    for (const StatedNumber& number : numbers) {
+      if (isSubset(number.enclosed, quantity_.uncertain.range)) continue;
+      const auto [inner, outer] = writtenApart(number.enclosed, quantity_.uncertain.range);
+      if (areIntervals()) {
+        const std::string problem = inner + " leaves the interval";
+        failAt(list.key, number.at, problem, what + ": " + problem, "intervals inside " + outer);
+      }
+      const std::string problem = fmt::format("{} has the value {} outside the interval", what, inner);
+      failAt(list.key, number.at, problem, problem, "values inside " + outer);
     }
-    return found;
   }
 
-  /// Throws StudyError at the key's place unless `found` lies inside the support.
-  void requireInside(const TomlSection& section, std::string_view key, const Interval& found,
-                     const Interval& support) const {
-    if (isSubset(found, support)) return;
-    const auto [inner, outer] = writtenApart(found, support);
-    const toml::node* node = section.find(key);  // missing where the nominal value stands in
-    source_.fail(node == nullptr ? section.table() : *node,
-                 fmt::format("{}{} {} leaves the support", section.nameOf(key),
-                             node == nullptr ? ", the nominal value" : "", inner),
-                 "values inside " + outer);
+  /// Of a point, in the numbers of the file.
+  [[noreturn]] void failAtPoint(const Membership::BadPoint& refusal) const {
+    const toml::array& point = *(*section_.find(refusal.key)->as_array())[*refusal.index].as_array();
+    const auto number = [&](std::size_t i) { return toString(nearest(source_.asAnyAmount(point[i], ""))); };
+    source_.fail(point,
+                 fmt::format("point {}, ({}, {}), of {} {}", *refusal.index + 1, number(0), number(1),
+                             section_.nameOf(refusal.key), refusal.problem),
+                 refusal.expected);
   }
+
+  // ---- How numbers are written and read ----------------------------------------------------------------------------
 
   static double nearTo(double x, int digits) { return std::stod(fmt::format("{:.{}g}", x, digits)); }
   static Interval nearTo(const Interval& x, int digits) {
@@ -434,17 +307,19 @@ class ShapeReader {
     return {written(found, own), written(around, digits)};
   }
 
-  /// The nearest double; `otherwise` without the key.
-  double number(const TomlSection& section, std::string_view key, const UncertainQuantity& quantity,
-                double otherwise) const {
-    const toml::node* node = section.find(key);
-    if (node == nullptr) return otherwise;
-    return nearest(value(*node, section.nameOf(key), dimensionOf(quantity.unit)));
-  }
-
-  double requiredNumber(const TomlSection& section, std::string_view key, const Dimension& dimension) const {
-    const toml::node& node = section.require(key, fmt::format("a number in {}", unitOf(dimension)));
-    return nearest(value(node, section.nameOf(key), dimension));
+ private:
+  /// Throws StudyError at the key's place.
+  void checkNumber(const ShapeWord& word, const Interval& found) const {
+    const toml::node* node = section_.find(word.key);  // missing where the nominal value stands in
+    if (word.isInside && !isSubset(found, support_)) {
+      const auto [inner, outer] = writtenApart(found, support_);
+      source_.fail(node == nullptr ? section_.table() : *node,
+                   fmt::format("{}{} {} leaves the support", section_.nameOf(word.key),
+                               node == nullptr ? ", the nominal value" : "", inner),
+                   "values inside " + outer);
+    }
+    if (word.isPositive && !(found.lower() > 0))
+      source_.fail(*node, section_.nameOf(word.key) + " is not positive", fmt::format("a {} above 0", word.key));
   }
 
   /// Of a parameter, which is no deviation from something; `otherwise` is what may stand in its place.
@@ -460,45 +335,135 @@ class ShapeReader {
     return source_.asAmount(node, what, dimension);
   }
 
-  /// Of a distribution: the nearest double, or an interval [least, greatest] of what it may be; `otherwise` without the
-  /// key, unless that is NaN.
-  Interval parameter(const TomlSection& section, std::string_view key, const Dimension& dimension,
-                     double otherwise = std::numeric_limits<double>::quiet_NaN()) const {
-    const toml::node* node = section.find(key);
-    if (node == nullptr && !std::isnan(otherwise)) return otherwise;
-    const toml::node& found =
-        section.require(key, fmt::format("a number in {}, or an interval of such numbers", unitOf(dimension)));
-    if (found.is_array()) return readPair(source_, found, section.nameOf(key), dimension);
-    return nearest(value(found, section.nameOf(key), dimension, ", or an interval of values [lower, upper]"));
+  Interval support_;
+};
+
+class ShapeReader {
+ public:
+  ShapeReader(const TomlSource& source, const TomlSection& section, const TableFiles& files, const ShapeTypes& types)
+      : source_(source), section_(section), files_(files), types_(types) {}
+
+  /// What distribution and membership are stated on; empty if neither says so.
+  Interval supports(const UncertainQuantity& quantity) const {
+    return hull(span("distribution", types_.distributions, quantity), span("membership", types_.memberships, quantity));
   }
 
-  /// The keys of one kind of distribution or membership function.
-  TomlSection kind(const TomlSection& parent, const toml::node& node, const std::string& key,
-                   const std::vector<std::pair<std::string, std::vector<std::string>>>& kinds,
-                   std::string& type) const {
-    const std::string name = parent.nameOf(key);
-    std::vector<std::string> types;
-    for (const auto& entry : kinds) types.push_back(entry.first);
+  /// Both, each perhaps from the other.
+  void read(UncertainQuantity& result) const {
+    const bool isInduced[] = {isOf("distribution", induced), isOf("membership", induced)};
+    if (isInduced[0] && isInduced[1])
+      source_.fail(*section_.find("membership"), "distribution and membership are each to follow from the other",
+                   "one of the two to be stated");
+    if (isInduced[0]) {
+      readMembership(result);
+      readDistribution(result);
+    } else {
+      readDistribution(result);
+      readMembership(result);
+    }
+  }
+
+ private:
+  bool isOf(const char* key, std::string_view type) const {
+    const toml::node* node = section_.find(key);
+    const toml::node* found = node != nullptr && node->is_table() ? node->as_table()->get("type") : nullptr;
+    return found != nullptr && found->value<std::string_view>() == type;
+  }
+
+  template <class Type>
+  Interval span(const char* key, const std::vector<Type>& types, const UncertainQuantity& quantity) const {
+    const toml::node* node = section_.find(key);
+    if (node == nullptr || !node->is_table()) return Interval::empty();
+    const auto [type, table] = kind(key, *node, types);
+    if (type == nullptr) return Interval::empty();
+    ShapeSpan found(files_, table, quantity);
+    try {
+      type()->describe(found);
+    } catch (const ShapeRefusal& refusal) {
+      found.fail(refusal);
+    }
+    return found.range;
+  }
+
+  void readDistribution(UncertainQuantity& result) const {
+    Uncertain& uncertain = result.uncertain;
+    uncertain.distribution = Distribution::uniform(uncertain.range);
+    if (const toml::node* node = section_.find("distribution"))
+      uncertain.distribution = readShape<Distribution>("distribution", *node, types_.distributions, result,
+                                                       "a distribution inside the interval",
+                                                       [&] { return distributionOf(uncertain.membership); });
+  }
+
+  void readMembership(UncertainQuantity& result) const {
+    Uncertain& uncertain = result.uncertain;
+    uncertain.membership = Membership::triangular(uncertain.range.lower(), uncertain.nominal, uncertain.range.upper());
+    if (const toml::node* node = section_.find("membership"))
+      uncertain.membership = readShape<Membership>("membership", *node, types_.memberships, result,
+                                                   "a membership function inside the interval", [&] {
+                                                     requireToFollow(*node, uncertain);
+                                                     return membershipOf(uncertain.distribution, uncertain.nominal);
+                                                   });
+  }
+
+  void requireToFollow(const toml::node& node, const Uncertain& uncertain) const {
+    if (!uncertain.distribution.isPrecise())
+      source_.fail(node, "a membership follows from one distribution, and there are several",
+                   "a membership of its own, or a distribution whose parameters are numbers");
+    if (const Interval& from = uncertain.distribution.support(); !contains(from, uncertain.nominal))
+      source_.fail(node,
+                   fmt::format("the nominal value {} lies outside the distribution's support {}",
+                               ShapeFilling::written(uncertain.nominal), ShapeFilling::written(from)),
+                   "a distribution that holds it, or another membership");
+  }
+
+  template <class Shape, class Type, class Follows>
+  Shape readShape(const char* key, const toml::node& node, const std::vector<Type>& types,
+                  const UncertainQuantity& quantity, const char* expected, const Follows& follows) const {
+    const auto [type, table] = kind(key, node, types);
+    ShapeFilling filling(files_, table, quantity);
+    try {
+      if (type == nullptr) return follows();
+      auto law = type();
+      law->describe(filling);
+      return Shape(std::move(law));
+    } catch (const Membership::BadPoint& refusal) {
+      filling.failAtPoint(refusal);
+    } catch (const ShapeRefusal& refusal) {
+      filling.fail(refusal);
+    } catch (const std::invalid_argument& error) {
+      source_.failWith(node, error.what(), expected);
+    }
+  }
+
+  /// What a table is of, and the table, whose keys are those of its type; null: it follows from the other one.
+  template <class Type>
+  std::pair<Type, TomlSection> kind(const char* key, const toml::node& node, const std::vector<Type>& types) const {
+    const std::string name = section_.nameOf(key);
+    std::vector<std::string> words;
+    for (const Type& type : types) words.emplace_back(type()->name());
+    words.emplace_back(induced);
     if (node.is_string()) {
       const std::string& word = node.as_string()->get();
-      const std::string nearest = meantName(word, types);
+      const std::string nearest = meantName(word, words);
       source_.fail(node, fmt::format("{} is \"{}\"", name, word),
-                   fmt::format("a table, such as {{ type = \"{}\" }}", nearest.empty() ? types.front() : nearest));
+                   fmt::format("a table, such as {{ type = \"{}\" }}", nearest.empty() ? words.front() : nearest));
     }
     const toml::table& table = source_.asTable(node, name);
     const toml::node* found = table.get("type");
     if (found == nullptr)
-      source_.fail(node, fmt::format("'{}.type' is missing", name), fmt::format("{{ type = \"{}\" }}", types.front()));
-    type = source_.asChoice(*found, name + ".type", types);
+      source_.fail(node, fmt::format("'{}.type' is missing", name), fmt::format("{{ type = \"{}\" }}", words.front()));
+    const std::string chosen = source_.asChoice(*found, name + ".type", words);
+    const auto at = static_cast<std::size_t>(std::ranges::find(words, chosen) - words.begin());
     std::vector<std::string> keys{"type"};
-    for (const auto& entry : kinds)
-      if (entry.first == type) keys.insert(keys.end(), entry.second.begin(), entry.second.end());
-    return {source_, table, name, keys};
+    if (at == types.size()) return {nullptr, TomlSection(source_, table, name, keys)};
+    for (const std::string& own : ShapeKeys(types[at]).keys()) keys.push_back(own);
+    return {types[at], TomlSection(source_, table, name, keys)};
   }
 
   const TomlSource& source_;
   const TomlSection& section_;
   const TableFiles& files_;
+  const ShapeTypes& types_;
 };
 
 }  // namespace
@@ -517,13 +482,17 @@ Interval readPair(const TomlSource& source, const toml::node& node, const std::s
 }
 
 Interval supportsOf(const TomlSource& source, const TomlSection& section, const TableFiles& files,
-                    const UncertainQuantity& quantity) {
-  return ShapeReader(source, section, files).supports(quantity);
+                    const ShapeTypes& types, const UncertainQuantity& quantity) {
+  return ShapeReader(source, section, files, types).supports(quantity);
 }
 
-void readShapes(const TomlSource& source, const TomlSection& section, const TableFiles& files,
+void readShapes(const TomlSource& source, const TomlSection& section, const TableFiles& files, const ShapeTypes& types,
                 UncertainQuantity& quantity) {
-  ShapeReader(source, section, files).read(quantity);
+  ShapeReader(source, section, files, types).read(quantity);
+}
+
+std::string shapesGuide(const ShapeTypes& types) {
+  return tableOf("distribution", types.distributions) + "\n" + tableOf("membership", types.memberships);
 }
 
 }  // namespace gamut

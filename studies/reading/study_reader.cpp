@@ -43,7 +43,7 @@ class StudyReader {
     study_.file = name;
   }
 
-  Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files) {
+  Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files, const ShapeTypes& shapes) {
     std::vector<std::string> names;
     for (const StudySection& section : studySections()) names.emplace_back(section.name);
     names.insert(names.begin() + 1, "mechanism");
@@ -61,7 +61,8 @@ class StudyReader {
     noteUnitsOfMasses();
     checkMotion(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
-    readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), places_, study_);
+    readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), places_, shapes,
+                  study_);
     readDependence(source_, tables(file, "dependence"), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
@@ -471,8 +472,8 @@ const std::string& StudyPlaces::of(std::string name) const {
 }
 
 Study readStudyText(const std::string& text, const std::string& name, const std::vector<Described>& types,
-                    const std::optional<FilesAtHand>& files) {
-  return StudyReader(text, name).read(types, files);
+                    const std::optional<FilesAtHand>& files, const ShapeTypes& shapes) {
+  return StudyReader(text, name).read(types, files, shapes);
 }
 
 Mechanism readMechanismText(const std::string& text, const std::string& name, const std::vector<Described>& types) {

@@ -55,8 +55,8 @@ class Pattern {
 class UncertainReader {
  public:
   UncertainReader(const TomlSource& source, const TableFiles& files,
-                  const std::map<std::string, const toml::node*>& places, Study& study)
-      : source_(source), files_(files), places_(places), study_(study) {}
+                  const std::map<std::string, const toml::node*>& places, const ShapeTypes& shapes, Study& study)
+      : source_(source), files_(files), places_(places), shapes_(shapes), study_(study) {}
 
   void read(const toml::table& table) {
     const TomlSection section = readSettings(source_, table, "uncertain", study_);
@@ -165,7 +165,7 @@ class UncertainReader {
       takeSupports(section, result);
     }
     const toml::node& interval = stated != nullptr ? *stated : supportOf(section);
-    readShapes(source_, section, files_, result);
+    readShapes(source_, section, files_, shapes_, result);
     readCourse(section, node, result);
     result.told = unitOfStatement(stated, result);
     try {
@@ -219,7 +219,7 @@ class UncertainReader {
 
   /// Without an interval: what distribution and membership are stated on.
   void takeSupports(const TomlSection& section, UncertainQuantity& result) {
-    const Interval range = supportsOf(source_, section, files_, result);
+    const Interval range = supportsOf(source_, section, files_, shapes_, result);
     if (isEmpty(range))
       section.require("interval", fmt::format("{}, or a distribution or membership with a support", waysToSayIt));
     result.uncertain.nominal = midpoint(study_.mechanism.nominal(result.quantity));
@@ -390,6 +390,7 @@ class UncertainReader {
   const TomlSource& source_;
   const TableFiles& files_;
   const std::map<std::string, const toml::node*>& places_;
+  const ShapeTypes& shapes_;
   Study& study_;
   std::vector<const toml::table*> tables_;              // of each uncertain quantity
   std::unordered_set<std::string> quantities_, names_;  // that are uncertain so far
@@ -398,8 +399,8 @@ class UncertainReader {
 }  // namespace
 
 void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, const TableFiles& files,
-                   const std::map<std::string, const toml::node*>& places, Study& study) {
-  UncertainReader reader(source, files, places, study);
+                   const std::map<std::string, const toml::node*>& places, const ShapeTypes& shapes, Study& study) {
+  UncertainReader reader(source, files, places, shapes, study);
   for (const toml::table* table : tables) reader.read(*table);
   reader.noteFaults();
 }

@@ -11,9 +11,9 @@
 namespace gamut {
 
 /// Reads uncertain quantities of the study's mechanism into the study, and notes what may be a mistake in them. The
-/// mechanism's numbers stand at `places`. Throws StudyError.
+/// mechanism's numbers stand at `places`; distributions and memberships are of `shapes`. Throws StudyError.
 void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, const TableFiles& files,
-                   const std::map<std::string, const toml::node*>& places, Study& study);
+                   const std::map<std::string, const toml::node*>& places, const ShapeTypes& shapes, Study& study);
 
 /// What would do instead of a quantity that the mechanism does not have.
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known);
