@@ -92,6 +92,7 @@ Dimension scaled(const Dimension& d, int times) {
 
 }  // namespace
 
+/// Long, since it is a list: what each operation asks of its operands' dimensions.
 Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
   struct Operand {
     Dimension dimension;

@@ -151,6 +151,7 @@ class Expression {
   std::vector<std::string> names_;
 };
 
+/// Long, since it is a list: a line or two for each operation.
 template <class S, class ValueOf, class ConstantOf>
 S Expression::evaluate(const ValueOf& valueOf, const ConstantOf& constantOf) const {
   using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::hypot, std::log,

@@ -68,7 +68,8 @@ void giveWay(SpatialInertia<S>& m, const Spatial<S>& u, const Spatial<S>& g, int
 }  // namespace detail
 
 /// u̇ of `speeds` at their present rates and positions; the chain has been moved with u̇ = 0. Changes accelerations and
-/// forces of all frames. Throws std::domain_error, naming the speed, if one is known to move no inertia.
+/// forces of all frames. Throws std::domain_error, naming the speed, if one is known to move no inertia. Long, since
+/// the three passes of the algorithm share what they find.
 template <class S>
 std::vector<S> articulatedAccelerations(const std::vector<std::reference_wrapper<Speed<S>>>& speeds, Chain<S>& chain,
                                         Frame<S>& base) {
