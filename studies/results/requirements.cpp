@@ -4,8 +4,7 @@
 namespace gamut {
 namespace {
 
-std::vector<Field> fieldsOf(RequirementResult& r) {
-  using namespace dimension;
+std::vector<Field> fieldsOfDemand(RequirementResult& r) {
   return {
       {"name", &r.name, unit::none, "as in the study", {}},
       {"statement", &r.statement, unit::none, "what is demanded", {}},
@@ -18,7 +17,7 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
        "index of the output that is its first margin: above zero where it is met",
        {},
        allowed::count,
-       output},
+       dimension::output},
       {"margins", &r.margins, unit::none, "so many outputs from there on are its margins", {}, {1, 2}},
       {"word",
        Choice::of(r.word),
@@ -36,7 +35,11 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
        &r.metUntil,
        unit::second,
        "always: it is met for every value up to this output time; NaN: not even at the first one of the window",
-       {}},
+       {}}};
+}
+
+std::vector<Field> fieldsOfGuarantee(RequirementResult& r) {
+  return {
       {"met", &r.met, unit::one, "part of the uncertain box for which it is proved to be met", {}, allowed::share},
       {"violated", &r.violated, unit::one, "part for which it is proved to be violated", {}, allowed::share},
       {"factor",
@@ -52,7 +55,7 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
        unit::ofQuantity,
        "values for which it is proved to be violated; of what varies in time, the number that chooses its course; NaN "
        "where none are known, or whatever it does",
-       {quantity}},
+       {dimension::quantity}},
       {"violation_sample",
        &r.violationSample,
        unit::none,
@@ -70,36 +73,43 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
        "when they violate it, at an output time unless violation_between says otherwise; NaN: it is not known when",
        {}},
       {"violation_lower", &r.violationLower, unit::none, "lower bound of the margin there, in its unit", {}},
-      {"violation_upper", &r.violationUpper, unit::none, "upper bound", {}},
-      {"probability_lower",
-       &r.probabilityLower,
-       unit::one,
-       "proved bound of the probability that it is met",
-       {},
-       allowed::share},
-      {"probability_upper", &r.probabilityUpper, unit::one, "upper bound", {}, allowed::share},
-      {"samples", &r.samples, unit::none, "samples of the plan that arrived", {}, allowed::count},
-      {"violating", &r.violating, unit::none, "of these, violate it at the output times", {}, allowed::count},
-      {"share_lower",
-       &r.shareLower,
-       unit::one,
-       "95 % confidence interval (Clopper and Pearson) of the probability that it is met at the output times; NaN "
-       "unless all samples arrived and are independent",
-       {}},
-      {"share_upper", &r.shareUpper, unit::one, "its upper end", {}},
-      {"worst_sample",
-       &r.worstSample,
-       unit::none,
-       "number of the sample that comes closest to violating it, or violates it most; -1: none",
-       {},
-       {-1, allowed::count.greatest}},
-      {"worst_time", &r.worstTime, unit::second, "when", {}},
-      {"worst_margin", &r.worstMargin, unit::none, "its margin then, in its unit", {}},
-      {"violated_in_simulation",
-       &r.isViolatedInSimulation,
-       unit::none,
-       "1: the word is \"open\", and it misses the requirement by more than the error of its integration",
-       {}},
+      {"violation_upper", &r.violationUpper, unit::none, "upper bound", {}}};
+}
+
+std::vector<Field> fieldsOfSampling(RequirementResult& r) {
+  return {{"probability_lower",
+           &r.probabilityLower,
+           unit::one,
+           "proved bound of the probability that it is met",
+           {},
+           allowed::share},
+          {"probability_upper", &r.probabilityUpper, unit::one, "upper bound", {}, allowed::share},
+          {"samples", &r.samples, unit::none, "samples of the plan that arrived", {}, allowed::count},
+          {"violating", &r.violating, unit::none, "of these, violate it at the output times", {}, allowed::count},
+          {"share_lower",
+           &r.shareLower,
+           unit::one,
+           "95 % confidence interval (Clopper and Pearson) of the probability that it is met at the output times; NaN "
+           "unless all samples arrived and are independent",
+           {}},
+          {"share_upper", &r.shareUpper, unit::one, "its upper end", {}},
+          {"worst_sample",
+           &r.worstSample,
+           unit::none,
+           "number of the sample that comes closest to violating it, or violates it most; -1: none",
+           {},
+           {-1, allowed::count.greatest}},
+          {"worst_time", &r.worstTime, unit::second, "when", {}},
+          {"worst_margin", &r.worstMargin, unit::none, "its margin then, in its unit", {}},
+          {"violated_in_simulation",
+           &r.isViolatedInSimulation,
+           unit::none,
+           "1: the word is \"open\", and it misses the requirement by more than the error of its integration",
+           {}}};
+}
+
+std::vector<Field> fieldsOfEstimate(RequirementResult& r) {
+  return {
       {"estimate_samples",
        &r.estimate.samples,
        unit::none,
@@ -136,6 +146,13 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
        {},
        allowed::share},
       {"violation_possibility_upper", &r.violationMost, unit::one, "upper bound", {}, allowed::share}};
+}
+
+std::vector<Field> fieldsOf(RequirementResult& r) {
+  std::vector<Field> all = fieldsOfDemand(r);
+  for (const auto& part : {fieldsOfGuarantee(r), fieldsOfSampling(r), fieldsOfEstimate(r)})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 std::vector<Field> fieldsOfMargin(MarginInfo& m) {

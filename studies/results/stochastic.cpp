@@ -3,82 +3,91 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "studies/words.hpp"
 
 namespace gamut {
 namespace {
 
+std::vector<Field> fieldsOfPlan(StochasticResult& r) {
+  return {
+      {"plan", &r.plan, unit::none, "how the samples were placed", {}},
+      {"samples", &r.samples, unit::none, "samples of the plan, which count in the statistics", {}, allowed::count},
+      {"corners", &r.corners, unit::none, "corners of the uncertain box, sampled besides", {}, allowed::count},
+      {"alpha_corners", &r.alphaCorners, unit::none, "corners of the alpha-cuts, sampled besides", {}, allowed::count},
+      {"alpha_points",
+       &r.alphaPoints,
+       unit::none,
+       "points of the transformation inside the alpha-cuts, sampled besides",
+       {},
+       allowed::count},
+      {"integrated",
+       &r.integrated,
+       unit::none,
+       "how many of samples, corners, centre, points and extremes were followed",
+       {},
+       allowed::count},
+      {"failures", &r.failures, unit::none, "how many of these did not arrive at the horizon", {}, allowed::count},
+      {"relative_tolerance", &r.relativeTolerance, unit::one, "of the integration; 0 where nothing is integrated", {}},
+      {"absolute_tolerance", &r.absoluteTolerance, unit::none, "likewise, in the unit of each state", {}},
+      {"pack_width",
+       &r.packWidth,
+       unit::none,
+       "samples of one number / `pack_width`, rounded down, were integrated together, in common steps; corners and "
+       "centre, counted from the first corner, likewise; points from the first that looks for turns, and from the "
+       "first behind these; extremes from the first",
+       {},
+       {1, allowed::count.greatest}}};
+}
+
 std::vector<Field> fieldsOf(StochasticResult& r) {
   using namespace dimension;
-  return r.fieldsAnd(
-      {{"plan", &r.plan, unit::none, "how the samples were placed", {}},
-       {"samples", &r.samples, unit::none, "samples of the plan, which count in the statistics", {}, allowed::count},
-       {"corners", &r.corners, unit::none, "corners of the uncertain box, sampled besides", {}, allowed::count},
-       {"alpha_corners", &r.alphaCorners, unit::none, "corners of the alpha-cuts, sampled besides", {}, allowed::count},
-       {"alpha_points",
-        &r.alphaPoints,
-        unit::none,
-        "points of the transformation inside the alpha-cuts, sampled besides",
-        {},
-        allowed::count},
-       {"integrated",
-        &r.integrated,
-        unit::none,
-        "how many of samples, corners, centre, points and extremes were followed",
-        {},
-        allowed::count},
-       {"failures", &r.failures, unit::none, "how many of these did not arrive at the horizon", {}, allowed::count},
-       {"relative_tolerance", &r.relativeTolerance, unit::one, "of the integration; 0 where nothing is integrated", {}},
-       {"absolute_tolerance", &r.absoluteTolerance, unit::none, "likewise, in the unit of each state", {}},
-       {"pack_width",
-        &r.packWidth,
-        unit::none,
-        "samples of one number / `pack_width`, rounded down, were integrated together, in common steps; corners and "
-        "centre, counted from the first corner, likewise; points from the first that looks for turns, and from the "
-        "first behind these; extremes from the first",
-        {},
-        {1, allowed::count.greatest}},
-       {"envelope",
-        &r.envelope,
-        unit::ofOutput,
-        "least and greatest of all samples, corners, centre, points and extremes; like all that samples say, NaN "
-        "beyond `reached`",
-        {time, output}},
-       {"mean", &r.mean, unit::ofOutput, "mean of the samples", {time, output}},
-       {"mean_error",
-        &r.meanError,
-        unit::ofOutput,
-        "half the 95 % confidence interval of the mean of all motions, from 16 independent batches of samples; NaN "
-        "where none holds",
-        {time, output}},
-       {"deviation", &r.deviation, unit::ofOutput, "standard deviation of the samples", {time, output}},
-       {"deviation_error", &r.deviationError, unit::ofOutput, "likewise, of the standard deviation", {time, output}},
-       {"error", &r.error, unit::ofOutput, "measured error of the integration of samples", {time, output}},
-       {"probability", &r.probabilities, unit::one, "probabilities of the quantiles", {probability}, allowed::share},
-       {"quantiles",
-        &r.quantiles,
-        unit::ofOutput,
-        "quantiles of the samples, from a histogram",
-        {probability, time, output}},
-       {"quantile_lower",
-        &r.quantileLower,
-        unit::ofOutput,
-        "lower end of the 95 % confidence interval of the quantile of all motions: for the plan random from the order "
-        "of the samples, otherwise from 16 independent batches; NaN where none holds",
-        {probability, time, output}},
-       {"quantile_upper", &r.quantileUpper, unit::ofOutput, "upper end", {probability, time, output}},
-       {"covered",
-        &r.covered,
-        unit::one,
-        "share of all motions that lies, in each output at each time, between the least and the greatest sample with a "
-        "confidence of 95 % (Wilks); 0 unless all samples arrived and are independent",
-        {},
-        allowed::share},
-       {"resolution",
-        &r.resolution,
-        unit::ofOutput,
-        "no quantile is farther than this from that of the samples themselves",
-        {time, output}}});
+  std::vector<Field> own = fieldsOfPlan(r);
+  const std::vector<Field> statistics = {
+      {"envelope",
+       &r.envelope,
+       unit::ofOutput,
+       "least and greatest of all samples, corners, centre, points and extremes; like all that samples say, NaN "
+       "beyond `reached`",
+       {time, output}},
+      {"mean", &r.mean, unit::ofOutput, "mean of the samples", {time, output}},
+      {"mean_error",
+       &r.meanError,
+       unit::ofOutput,
+       "half the 95 % confidence interval of the mean of all motions, from 16 independent batches of samples; NaN "
+       "where none holds",
+       {time, output}},
+      {"deviation", &r.deviation, unit::ofOutput, "standard deviation of the samples", {time, output}},
+      {"deviation_error", &r.deviationError, unit::ofOutput, "likewise, of the standard deviation", {time, output}},
+      {"error", &r.error, unit::ofOutput, "measured error of the integration of samples", {time, output}},
+      {"probability", &r.probabilities, unit::one, "probabilities of the quantiles", {probability}, allowed::share},
+      {"quantiles",
+       &r.quantiles,
+       unit::ofOutput,
+       "quantiles of the samples, from a histogram",
+       {probability, time, output}},
+      {"quantile_lower",
+       &r.quantileLower,
+       unit::ofOutput,
+       "lower end of the 95 % confidence interval of the quantile of all motions: for the plan random from the order "
+       "of the samples, otherwise from 16 independent batches; NaN where none holds",
+       {probability, time, output}},
+      {"quantile_upper", &r.quantileUpper, unit::ofOutput, "upper end", {probability, time, output}},
+      {"covered",
+       &r.covered,
+       unit::one,
+       "share of all motions that lies, in each output at each time, between the least and the greatest sample with a "
+       "confidence of 95 % (Wilks); 0 unless all samples arrived and are independent",
+       {},
+       allowed::share},
+      {"resolution",
+       &r.resolution,
+       unit::ofOutput,
+       "no quantile is farther than this from that of the samples themselves",
+       {time, output}}};
+  own.insert(own.end(), statistics.begin(), statistics.end());
+  return r.fieldsAnd(std::move(own));
 }
 
 std::vector<Field> fieldsOfFailed(FailedSampleResult& f) {
