@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "analyses/distribution.hpp"
 #include "mechanics/description/words.hpp"
+#include "scalars/membership.hpp"
 #include "studies/settings.hpp"
 
 namespace gamut {
@@ -67,6 +70,7 @@ class SchemaWriter final : public Settings {
 
   void add(const Key& key, Json schema) {
     const bool isRequired = key.otherwise == "required";
+    if (schema.contains("$ref")) schema = {{"allOf", Json::array({schema})}};  // beside it nothing else counts
     schema["description"] = described(key.meaning, isRequired ? "" : key.otherwise);
     properties_[key.name] = std::move(schema);
     if (isRequired) required_.push_back(key.name);
@@ -74,6 +78,65 @@ class SchemaWriter final : public Settings {
 
   Json properties_ = Json::object(), required_ = Json::array();
 };
+
+class ShapeWriter final : public ShapeFields {
+ public:
+  explicit ShapeWriter(std::string_view type) : properties_{{"type", Json{{"const", type}}}} {}
+
+  void support(Interval& /*support*/) override { properties_["support"] = {{"$ref", "#/definitions/pair"}}; }
+  void number(const ShapeWord& word, double& /*number*/) override { add(word, {{"type", {"number", "string"}}}); }
+  void parameter(const ShapeWord& word, Trend /*trend*/, Interval& /*number*/) override {
+    add(word, {{"type", {"number", "string", "array"}}});
+  }
+  void pair(const ShapeWord& word, const std::array<std::string, 2>& /*names*/, Interval& /*pair*/) override {
+    array(word);
+  }
+  void points(const ShapeWord& word, std::vector<Point>& /*points*/) override { array(word); }
+  void list(const ShapeWord& word, const std::string& /*expected*/, StatedNumbers& /*numbers*/,
+            bool /*mayBeEmpty*/) override {
+    array(word);
+  }
+  void intervals(const ShapeWord& word, const std::string& /*expected*/, StatedNumbers& /*intervals*/) override {
+    array(word);
+  }
+  bool file(const std::vector<Column>& wanted, std::vector<StatedNumbers>& /*columns*/) override {
+    properties_["file"] = {{"type", "string"}, {"description", "a CSV file instead"}};
+    for (const Column& column : wanted)
+      if (column.isNamedByKey)
+        properties_[column.name] = {{"type", "string"}, {"description", "the name of its column"}};
+    return false;
+  }
+
+  Json schema() const { return closedTable(properties_); }
+
+ private:
+  void array(const ShapeWord& word) { add(word, {{"type", "array"}}); }
+  void add(const ShapeWord& word, Json schema) {
+    schema["description"] = word.meaning;
+    properties_[word.key] = std::move(schema);
+  }
+
+  Json properties_;
+};
+
+/// Of distributions, or of memberships.
+template <class Types>
+Json shapeSchema(const Types& types) {
+  Json names = Json::array(), each = Json::array();
+  for (const auto& make : types) {
+    const auto law = make();
+    ShapeWriter writer(law->name());
+    law->describe(writer);
+    names.push_back(law->name());
+    each.push_back({{"if", {{"properties", {{"type", {{"const", law->name()}}}}}, {"required", {"type"}}}},
+                    {"then", writer.schema()}});
+  }
+  names.push_back("induced");
+  return {{"type", "object"},
+          {"properties", {{"type", {{"enum", names}, {"description", "what it is"}}}}},
+          {"required", {"type"}},
+          {"allOf", each}};
+}
 
 /// The keys of one type of element, beside those that all have.
 Json elementSchema(const Described& type) {
@@ -145,6 +208,8 @@ std::string studySchema(const std::vector<Described>& types) {
   const Json number = {{"type", {"number", "string"}}};
   schema["definitions"] = {
       {"number", number},
+      {"distribution", shapeSchema(distributionTypes())},
+      {"membership", shapeSchema(membershipTypes())},
       {"pair", {{"type", "array"}, {"items", {{"$ref", "#/definitions/number"}}}, {"minItems", 2}, {"maxItems", 2}}}};
   return schema.dump(1) + "\n";
 }

@@ -46,24 +46,16 @@ void describeUncertain(Settings& s, Study&) {
        "required then"},
       R"({"anyOf": [{"type": "string"}, {"$ref": "#/definitions/pair"}]})");
   s.own({"distribution",
-         "`{ type = \"uniform\" }`, `\"triangular\"` (`mode`), `\"normal\"` (`mean`, `deviation`), `\"beta\"` (`a`, "
-         "`b`), `\"lognormal\"` (`log_mean`, `log_deviation`), `\"weibull\"`, `\"gamma\"` (`shape`, `scale`), "
-         "`\"exponential\"` (`mean`); beta is scaled to the support, normal and those behind beta are truncated to it, "
-         "and the results say what share that cuts off; or `\"histogram\"`, `\"empirical\"`, `\"evidence\"`, "
-         "`\"induced\"`; parameters may be intervals; see below",
-         "uniform"},
-        R"({"type": "object", "required": ["type"]})");
+         "`{ type = \"uniform\" }`, or another one [below](#distributions-and-memberships), with its keys", "uniform"},
+        R"({"$ref": "#/definitions/distribution"})");
   s.own({"varies", "`\"freely\"`: it is no constant, but may take any course within the interval", "constant"},
         R"({"enum": ["freely"]})");
   s.own({"rate",
          "it may take any course within the interval that changes by no more than this in a second: `\"± 0.1 rad/s\"`",
          "constant"},
         number);
-  s.own({"membership",
-         "`{ type = \"triangular\" }` (`apex`), `\"trapezoidal\"` (`core = [left, right]`), `\"gaussian\"` (`centre`, "
-         "`deviation`), `\"table\"` (`points`), `\"induced\"`",
-         "triangular"},
-        R"({"type": "object", "required": ["type"]})");
+  s.own({"membership", "`{ type = \"triangular\" }`, or another one below", "triangular"},
+        R"({"$ref": "#/definitions/membership"})");
 }
 
 void describeDependence(Settings& s, Study&) {

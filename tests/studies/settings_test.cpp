@@ -81,6 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Change{"missing", "analysis = \"dynamics\"\n", ""},
                     Change{"unknownElement", "type = \"revolute\"", "type = \"revolut\""},
                     Change{"unknownKeyOfAnElement", "axis = \"x\"", "aksis = \"x\""},
+                    Change{"unknownMembership", "type = \"triangular\"", "type = \"triangel\""},
+                    Change{"keyOfAnotherMembership", "type = \"triangular\"", "type = \"triangular\", centre = 0.5"},
                     Change{"unknownInitialValue", "initial = { angle", "initial = { angel"}),
     [](const auto& test) { return test.param.what; });
 
