@@ -15,7 +15,7 @@
 namespace gamut {
 namespace {
 
-constexpr Dimension seconds{0, 0, 1, 0};
+constexpr Dimension windowDimension{0, 0, 1, 0};
 constexpr const char* comparisonExpected =
     "a comparison with <, <=, > or >=, such as \"tip.position.z > 0.2 m\" or \"-5 deg < arm.angle < 5 deg\"";
 
@@ -76,7 +76,7 @@ class RequirementReader {
       const toml::node* node = section.find(key);
       if (node == nullptr) continue;
       const std::string name = section.nameOf(key);
-      const double time = nearest(source_.asAmount(*node, name, seconds));
+      const double time = nearest(source_.asAmount(*node, name, windowDimension));
       if (!(time >= 0 && time <= study_.horizon))
         source_.fail(*node, fmt::format("{} is {} s, outside the study's time", name, time),
                      fmt::format("a time from 0 s to {} s", study_.horizon));

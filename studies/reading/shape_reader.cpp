@@ -16,7 +16,7 @@
 namespace gamut {
 namespace {
 
-constexpr Dimension plain{};
+constexpr Dimension unitless{};
 constexpr const char* induced = "induced";
 
 /// The words of a shape.
@@ -136,7 +136,7 @@ class StatedShape : public ShapeFields {
     source_.fail((*section_.find(key)->as_array())[index], ofList, expected);
   }
   bool areIntervals() const { return areIntervals_; }
-  const Dimension& dimensionOfWord(const ShapeWord& word) const { return word.isOfQuantity ? dimension_ : plain; }
+  const Dimension& dimensionOfWord(const ShapeWord& word) const { return word.isOfQuantity ? dimension_ : unitless; }
 
   const TomlSection& section_;
   const TomlSource& source_;
@@ -252,7 +252,7 @@ class ShapeFilling final : public StatedShape {
         source_.fail(point[0],
                      fmt::format("{} has the value {} after {}", what, written(value), written(points.back().value)),
                      "values that do not fall");
-      const double degree = nearest(source_.asAmount(point[1], what, plain));
+      const double degree = nearest(source_.asAmount(point[1], what, unitless));
       if (!(degree >= 0 && degree <= 1))
         source_.fail(point[1], fmt::format("{} has the membership {}", what, toString(degree)),
                      "a membership from 0 to 1");
