@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "analyses/family.hpp"
+#include "reports/summary.hpp"
 #include "scalars/membership_lines.hpp"
 #include "studies/running/run.hpp"
-#include "studies/summary.hpp"
 #include "tests/studies/sample_study.hpp"
 
 namespace gamut {
