@@ -84,7 +84,8 @@ bool Family::isPrecise() const { return isPrecise_; }
 
 Interval Family::enclosedBelow(const Interval& value) const {
   if (value.lower() >= on.upper()) return Interval(1.0);
-  if (value.upper() <= on.lower()) return Interval(0.0);
+  if (value.upper() < on.lower() || (value.upper() == on.lower() && !isThin(on))) return Interval(0.0);
+  if (isThin(on)) return wholeShare;  // it jumps there
   const Interval v = intersection(value, on);
   if (isPrecise_) return least_.front()->enclosed(v);
   double lower = 1, upper = 0;

@@ -4,9 +4,14 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analyses/distribution.hpp"
@@ -21,8 +26,9 @@ using Json = nlohmann::ordered_json;
 
 /// Markdown as an editor shows it.
 std::string described(const std::string& meaning, const std::string& otherwise) {
-  return otherwise.empty() ? meaning
-                           : fmt::format("{}{}Otherwise: {}.", meaning, meaning.empty() ? "" : ". ", otherwise);
+  if (otherwise.empty()) return meaning;
+  const bool isCondition = otherwise.find("required") != otherwise.npos || otherwise.starts_with("this or");
+  return fmt::format("{}. {}{}.", meaning, isCondition ? "" : "Otherwise: ", otherwise);
 }
 
 Json closedTable(Json properties) {
@@ -119,23 +125,31 @@ class ShapeWriter final : public ShapeFields {
   Json properties_;
 };
 
+/// Tables whose type says what else they hold.
+Json byType(const std::vector<std::pair<std::string, Json>>& types, const Json& required) {
+  Json names = Json::array(), each = Json::array();
+  for (const auto& [name, schema] : types) {
+    names.push_back(name);
+    each.push_back({{"if", {{"properties", {{"type", {{"const", name}}}}}, {"required", {"type"}}}}, {"then", schema}});
+  }
+  return {{"type", "object"},
+          {"properties", {{"type", {{"enum", names}, {"description", "what it is"}}}}},
+          {"required", required},
+          {"allOf", each}};
+}
+
 /// Of distributions, or of memberships.
 template <class Types>
 Json shapeSchema(const Types& types) {
-  Json names = Json::array(), each = Json::array();
+  std::vector<std::pair<std::string, Json>> all;
   for (const auto& make : types) {
     const auto law = make();
     ShapeWriter writer(law->name());
     law->describe(writer);
-    names.push_back(law->name());
-    each.push_back({{"if", {{"properties", {{"type", {{"const", law->name()}}}}}, {"required", {"type"}}}},
-                    {"then", writer.schema()}});
+    all.emplace_back(law->name(), writer.schema());
   }
-  names.push_back("induced");
-  return {{"type", "object"},
-          {"properties", {{"type", {{"enum", names}, {"description", "what it is"}}}}},
-          {"required", {"type"}},
-          {"allOf", each}};
+  all.emplace_back("induced", closedTable({{"type", Json::object()}}));
+  return byType(all, Json::array({"type"}));
 }
 
 /// The keys of one type of element, beside those that all have.
@@ -161,12 +175,8 @@ Json elementSchema(const Described& type) {
 }
 
 Json mechanismSchema(const std::vector<Described>& types) {
-  Json names = Json::array(), each = Json::array();
-  for (const Described& type : types) {
-    names.push_back(type.type());
-    const Json isOfType = {{"properties", {{"type", {{"const", type.type()}}}}}, {"required", {"type"}}};
-    each.push_back({{"if", isOfType}, {"then", elementSchema(type)}});
-  }
+  std::vector<std::pair<std::string, Json>> elements;
+  for (const Described& type : types) elements.emplace_back(type.type(), elementSchema(type));
   const Json vector = {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}}, table = {{"type", "object"}},
              flag = {{"type", "boolean"}};
   Json properties = {
@@ -179,13 +189,7 @@ Json mechanismSchema(const std::vector<Described>& types) {
       {"friction", flag},
       {"mimic", flag},
       {"initial", table},
-      {"element",
-       {{"type", "array"},
-        {"items",
-         {{"type", "object"},
-          {"properties", {{"type", {{"enum", names}, {"description", "what it is"}}}}},
-          {"required", {"type", "name"}},
-          {"allOf", each}}}}}};
+      {"element", {{"type", "array"}, {"items", byType(elements, Json::array({"type", "name"}))}}}};
   return closedTable(std::move(properties));
 }
 

@@ -10,7 +10,6 @@
 namespace gamut {
 namespace {
 
-constexpr double gigabyte = 1e9;
 constexpr const char *text = R"({"type": "string"})", *number = R"({"$ref": "#/definitions/number"})";
 
 void describeStudy(Settings& s, Study&) {

@@ -15,6 +15,8 @@
 
 namespace gamut {
 
+inline constexpr double gigabyte = 1e9;  ///< bytes
+
 /// Limits as somebody states them; what is left out follows from the others.
 struct StatedLimits {
   std::optional<double> time, memory;  ///< of the whole run: s of CPU, bytes

@@ -135,20 +135,12 @@ class MechanismReader {
   }
 
   /// Gives an element of the robot the initial values that the study states for it, and takes them off the list.
-  class InitialValues final : public Fields {
+  class InitialValues final : public Onlooker {
    public:
     InitialValues(MechanismReader& reader, std::string element, std::map<std::string, const toml::node*>& given,
                   std::vector<std::string>& known)
         : reader_(reader), element_(std::move(element)), given_(given), known_(known) {}
 
-    void frame(const Word& /*word*/, std::string& /*name*/) override {}
-    void movedFrame(const Word& /*word*/, std::string& /*name*/, const std::string& /*from*/) override {}
-    void choice(const Word& /*word*/, std::string& /*value*/, const std::vector<std::string>& /*choices*/) override {}
-    void axis(const Word& /*word*/, Axis& /*axis*/) override {}
-    void rotations(const Word& /*word*/, std::vector<FixedRotation>& /*rotations*/) override {}
-    void number(const Word& /*word*/, Expression& /*number*/) override {}
-    void numbers(const Word& /*word*/, std::span<Expression> /*numbers*/, std::span<const char* const> /*names*/,
-                 std::size_t /*least*/) override {}
     void coordinate(const Word& position, Expression& initial, Coordinate /*kind*/, const Word& rate,
                     Expression& initialRate) override {
       this->position(position, initial);
@@ -179,12 +171,6 @@ class MechanismReader {
       given_.erase(found);
     }
     void speed(const Word& word, Expression& initial) override { position(word, initial); }
-    std::string state(const Word& word, Expression& /*initial*/) override { return word.unit; }
-    Coordinate coordinateOf(const Word& /*word*/, std::string& /*name*/) override { return Coordinate::angle; }
-    void timeFunction(const Word& /*word*/, Expression& /*number*/) override {}
-    void signal(const Word& /*word*/, Expression& /*number*/) override {}
-    void signals(const Word& /*word*/, ExpressionVector& /*vector*/) override {}
-    void measure(const Word& /*word*/) override {}
 
    private:
     /// As a list, or by components.

@@ -125,7 +125,8 @@ class StatedShape : public ShapeFields {
   /// Throws StudyError at what a shape refuses.
   [[noreturn]] void fail(const ShapeRefusal& refusal) const {
     if (refusal.index) failAt(refusal.key, *refusal.index, refusal.problem, refusal.problem, refusal.expected);
-    source_.fail(*section_.find(refusal.key), refusal.problem, refusal.expected);
+    const toml::node* node = section_.find(refusal.key);
+    source_.fail(node == nullptr ? section_.table() : *node, refusal.problem, refusal.expected);
   }
 
  protected:
@@ -311,15 +312,16 @@ class ShapeFilling final : public StatedShape {
   /// Throws StudyError at the key's place.
   void checkNumber(const ShapeWord& word, const Interval& found) const {
     const toml::node* node = section_.find(word.key);  // missing where the nominal value stands in
+    const toml::node& place = node == nullptr ? section_.table() : *node;
     if (word.isInside && !isSubset(found, support_)) {
       const auto [inner, outer] = writtenApart(found, support_);
-      source_.fail(node == nullptr ? section_.table() : *node,
+      source_.fail(place,
                    fmt::format("{}{} {} leaves the support", section_.nameOf(word.key),
                                node == nullptr ? ", the nominal value" : "", inner),
                    "values inside " + outer);
     }
     if (word.isPositive && !(found.lower() > 0))
-      source_.fail(*node, section_.nameOf(word.key) + " is not positive", fmt::format("a {} above 0", word.key));
+      source_.fail(place, section_.nameOf(word.key) + " is not positive", fmt::format("a {} above 0", word.key));
   }
 
   /// Of a parameter, which is no deviation from something; `otherwise` is what may stand in its place.

@@ -1,4 +1,5 @@
-// Reads a study file table by table. Everything is checked here, so that a study that was read can be run.
+// Reads a study file table by table. Everything is checked here but whether the mechanism's motion is determined, which
+// its Machine finds (studies/machine.hpp).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -34,7 +35,6 @@ namespace gamut {
 namespace {
 
 constexpr Dimension seconds{0, 0, 1, 0};
-constexpr double gigabyte = 1e9;
 
 class StudyReader {
  public:
@@ -73,13 +73,13 @@ class StudyReader {
     checkSomethingMoves(*file.find("mechanism"));
     notePlaces(*file.find("mechanism"));
     study_.ensemble.transformation = Transformation::extended;
-    for (const char* name : {"interval", "stochastic", "sensitivity", "fuzzy"})
-      if (const toml::node* node = file.find(name)) readSettings(source_, source_.asTable(*node, name), name, study_);
+    for (const StudySection& each : studySections())  // those that were read before say the same again
+      if (const toml::node* node = file.find(each.name); node != nullptr && !each.isList)
+        readSettings(source_, source_.asTable(*node, each.name), each.name, study_);
     checkPlan(file.find("stochastic"));
     checkDerivatives(file.find("sensitivity"));
     checkGeneralMethod(file.find("fuzzy"));
-    if (const toml::node* node = file.find("limits"))
-      checkLimits(readSettings(source_, source_.asTable(*node, "limits"), "limits", study_));
+    if (const toml::node* node = file.find("limits")) checkLimits(*node->as_table());
     return std::move(study_);
   }
 
@@ -437,23 +437,23 @@ class StudyReader {
                     : "\"extended\" or \"reduced\"");
   }
 
-  void checkLimits(const TomlSection& section) const {
+  void checkLimits(const toml::table& table) const {
     const StatedLimits& limits = study_.limits;
     if (limits.enclosureTime.value_or(0) > limits.resolved().time)
-      refusePart(section, "enclosure_time", "time", fmt::format("{:.12g} s", *limits.enclosureTime),
+      refusePart(table, "enclosure_time", "time", fmt::format("{:.12g} s", *limits.enclosureTime),
                  fmt::format("{:.12g} s", limits.resolved().time));
     if (limits.memory && limits.enclosureMemory.value_or(0) > *limits.memory)
-      refusePart(section, "enclosure_memory", "memory", fmt::format("{:.12g} GB", *limits.enclosureMemory / gigabyte),
+      refusePart(table, "enclosure_memory", "memory", fmt::format("{:.12g} GB", *limits.enclosureMemory / gigabyte),
                  fmt::format("{:.12g} GB", *limits.memory / gigabyte));
   }
 
   /// The enclosure cannot have more than the whole run.
-  [[noreturn]] void refusePart(const TomlSection& section, std::string_view part, std::string_view whole,
+  [[noreturn]] void refusePart(const toml::table& table, std::string_view part, std::string_view whole,
                                const std::string& ofPart, const std::string& ofWhole) const {
-    source_.fail(*section.find(part),
-                 fmt::format("{} is {}, more than {}, which is {}{}", section.nameOf(part), ofPart,
-                             section.nameOf(whole), ofWhole, section.find(whole) == nullptr ? " unless given" : ""),
-                 fmt::format("at most {}, or a greater {}", ofWhole, section.nameOf(whole)));
+    source_.fail(*table.get(part),
+                 fmt::format("limits.{} is {}, more than limits.{}, which is {}{}", part, ofPart, whole, ofWhole,
+                             table.get(whole) == nullptr ? " unless given" : ""),
+                 fmt::format("at most {}, or a greater limits.{}", ofWhole, whole));
   }
 
   TomlSource source_;

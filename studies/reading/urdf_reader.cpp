@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "mechanics/description/names.hpp"
@@ -366,8 +367,10 @@ std::string_view wordOf(Robot::Type type) {
 const Described& elementOf(Robot::Type type) {
   static const std::vector<Described> elements = elementTypes();
   const std::string word(wordOf(type));
-  return *std::ranges::find_if(elements,
-                               [&](const Described& one) { return std::ranges::count(one.urdfTypes(), word) > 0; });
+  const auto found = std::ranges::find_if(
+      elements, [&](const Described& one) { return std::ranges::count(one.urdfTypes(), word) > 0; });
+  if (found == elements.end()) throw std::logic_error("no element is a joint of type " + word);
+  return *found;
 }
 
 bool hasCoordinate(const Robot::Joint& joint) {

@@ -108,6 +108,18 @@ TEST(DistributionBounds, HoldThoseOfHistogramsWithValuesOfTheirOwn) {
   }
 }
 
+TEST(DistributionBounds, HoldWhereTheSupportIsOneValue) {
+  const Interval one(1.0);
+  for (const Distribution& d :
+       {Distribution::uniform(one), Distribution::triangular(one, one), Distribution::normal(one, one, Interval(0.5)),
+        Distribution::normal(one, {0.5, 2}, Interval(0.5)), Distribution::exponential(one, one)}) {
+    EXPECT_TRUE(isEqual(d.enclosedBelow(0.5), Interval(0.0)));
+    EXPECT_TRUE(isEqual(d.enclosedBelow(one), Interval(1.0)));
+    for (const Interval& around : {Interval(0.5, 1), Interval(0.5, 1.5)})
+      EXPECT_TRUE(isSubset(Interval(0, 1), d.enclosedBelow(around))) << d.name();
+  }
+}
+
 TEST(DistributionBounds, HoldWhereAValueHasAProbabilityOfItsOwn) {
   const Distribution d = Distribution::histogram({0, 0, 1, 1}, {1, 1, 1});
   EXPECT_TRUE(contains(d.enclosedBelow({-1, 0}), 0));

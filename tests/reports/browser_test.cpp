@@ -170,7 +170,7 @@ TEST_F(Browser, SavesAFigureThatNeedsNothingBesideIt) {
     EXPECT_THAT(svg, ::testing::StartsWith("&lt;svg xmlns=\"http://www.w3.org/2000/svg\"")) << place;
     EXPECT_THAT(svg, AllOf(HasSubstr("fill=\"#ffffff\""), HasSubstr("stroke:"), Not(HasSubstr("class=")),
                            Not(HasSubstr("var("))));
-    EXPECT_THAT(svg, testing::EndsWith("&lt;/svg&gt;"));
+    EXPECT_THAT(svg, ::testing::EndsWith("&lt;/svg&gt;"));
   }
 }
 
@@ -227,7 +227,7 @@ TEST_F(Browser, MovesTheMachineThroughTime) {
   EXPECT_NE(attributeOf(later, "mass", "cx"), attributeOf(start, "mass", "cx"));
   for (const char* element : {"link", "sample", "spring", "pin edge"})  // the script draws what was drawn without it
     EXPECT_THAT(numbersOf(attributeOf(start, element, "d")),
-                testing::Pointwise(::testing::DoubleNear(0.15), numbersOf(attributeOf(still, element, "d"))))
+                ::testing::Pointwise(::testing::DoubleNear(0.15), numbersOf(attributeOf(still, element, "d"))))
         << element;
 }
 
@@ -282,7 +282,7 @@ TEST_F(Browser, PrintsTheMachineAtItsStart) {
   const std::string printed = opened(results, std::string(slide) + "window.dispatchEvent(new Event('beforeprint'));");
   EXPECT_THAT(
       numbersOf(attributeOf(printed, "link", "d")),
-      testing::Pointwise(::testing::DoubleNear(0.15), numbersOf(attributeOf(renderReport(results), "link", "d"))));
+      ::testing::Pointwise(::testing::DoubleNear(0.15), numbersOf(attributeOf(renderReport(results), "link", "d"))));
   EXPECT_THAT(printed, HasSubstr("Side view, at the start."));
 }
 

@@ -14,7 +14,7 @@ namespace gamut {
 namespace {
 
 using ::testing::ElementsAre;
-using testing::EndsWith;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;

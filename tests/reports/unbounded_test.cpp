@@ -158,7 +158,7 @@ TEST(Unbounded, AxesHaveFiniteEnds) {
     EXPECT_TRUE(std::isfinite(room.high - room.low));
     const Ticks ticks = ticksOf(room, 5);
     EXPECT_GE(ticks.at.size(), 2U) << low << " to " << high;
-    for (const std::string& text : ticks.text) EXPECT_THAT(text, ::testing::Not(testing::ContainsRegex("nan|inf")));
+    for (const std::string& text : ticks.text) EXPECT_THAT(text, ::testing::Not(::testing::ContainsRegex("nan|inf")));
   }
 }
 

@@ -9,7 +9,7 @@
 namespace gamut {
 namespace {
 
-struct Machine {
+struct StudiedMachine {
   std::string name;
   std::string text;
   double overestimation;
@@ -152,7 +152,7 @@ std::string reactionWheels() {
          output("wheelz.rate");
 }
 
-class Machines : public ::testing::TestWithParam<Machine> {};
+class Machines : public ::testing::TestWithParam<StudiedMachine> {};
 
 TEST_P(Machines, ArriveInsideATightGuarantee) {
   const Results results = run(readStudyText(GetParam().text, "machine.toml"), {});
@@ -163,18 +163,18 @@ TEST_P(Machines, ArriveInsideATightGuarantee) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Study, Machines,
-                         ::testing::Values(Machine{"perpendicularHinges", perpendicular(2), 1.01},
-                                           Machine{"threePerpendicularHinges", perpendicular(3), 1.01},
-                                           Machine{"sixPerpendicularHinges", perpendicular(6), 1.01},
-                                           Machine{"freeBody", tumbling("free", 5), 1.01},
-                                           Machine{"top", tumbling("spherical", 3), 1.01},
-                                           Machine{"planetaryGear", planetaryGear(), 1.02},
-                                           Machine{"reactionWheels", reactionWheels(), 1.02},
-                                           Machine{"startsAtALength", startsAtALength(), 1.01},
-                                           Machine{"chainOfThree", planarChain(3, 2), 1.01},
-                                           Machine{"chainOfFive", planarChain(5, 2), 1.01},
-                                           Machine{"chainOfEight", planarChain(8, 2), 1.01},
-                                           Machine{"chainOfTen", planarChain(10, 0.5), 1.01}),
+                         ::testing::Values(StudiedMachine{"perpendicularHinges", perpendicular(2), 1.01},
+                                           StudiedMachine{"threePerpendicularHinges", perpendicular(3), 1.01},
+                                           StudiedMachine{"sixPerpendicularHinges", perpendicular(6), 1.01},
+                                           StudiedMachine{"freeBody", tumbling("free", 5), 1.01},
+                                           StudiedMachine{"top", tumbling("spherical", 3), 1.01},
+                                           StudiedMachine{"planetaryGear", planetaryGear(), 1.02},
+                                           StudiedMachine{"reactionWheels", reactionWheels(), 1.02},
+                                           StudiedMachine{"startsAtALength", startsAtALength(), 1.01},
+                                           StudiedMachine{"chainOfThree", planarChain(3, 2), 1.01},
+                                           StudiedMachine{"chainOfFive", planarChain(5, 2), 1.01},
+                                           StudiedMachine{"chainOfEight", planarChain(8, 2), 1.01},
+                                           StudiedMachine{"chainOfTen", planarChain(10, 0.5), 1.01}),
                          [](const auto& machine) { return machine.param.name; });
 
 }  // namespace

@@ -32,7 +32,7 @@ TEST(Printable, ShortensWhatIsEndlessBetweenCharacters) {
   EXPECT_EQ(shortened("short", 10), "short");
   const std::string found = shortened(std::string(1000000, 'a') + "end", 100);
   EXPECT_THAT(found, ::testing::StartsWith("aaaa"));
-  EXPECT_THAT(found, testing::EndsWith("aend"));
+  EXPECT_THAT(found, ::testing::EndsWith("aend"));
   EXPECT_THAT(found, ::testing::HasSubstr(" … (1000003 characters) … "));
   EXPECT_LT(found.size(), 150u);
   std::string text;

@@ -18,7 +18,7 @@
 namespace gamut {
 namespace {
 
-using testing::IsEmpty;
+using ::testing::IsEmpty;
 
 /// Two links; angles, lengths and a mass are uncertain.
 std::string pendulums(const std::string& limits) {
