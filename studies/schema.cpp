@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,8 +25,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Markdown as an editor shows it.
-std::string described(const std::string& meaning, const std::string& otherwise) {
+/// Markdown as an editor shows it, where links of the guide lead nowhere.
+std::string described(const std::string& guide, const std::string& otherwise) {
+  static const std::regex link(R"(\[([^\]]*)\]\([^)]*\))");
+  const std::string meaning = std::regex_replace(guide, link, "$1");
   if (otherwise.empty()) return meaning;
   const bool isCondition = otherwise.find("required") != otherwise.npos || otherwise.starts_with("this or");
   return fmt::format("{}. {}{}.", meaning, isCondition ? "" : "Otherwise: ", otherwise);
@@ -35,64 +38,21 @@ Json closedTable(Json properties) {
   return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
 
-class SchemaWriter final : public Settings {
- public:
-  void any(const Key& key) override { add(key, Json::object()); }
-
-  void flag(const Key& key, bool& /*value*/, bool allowsAuto) override {
-    add(key, orAuto({{"type", "boolean"}}, allowsAuto));
-  }
-  void number(const Key& key, const NumberOf& of, double& /*value*/) override {
-    Json bare = {{"type", "number"}};
-    if (std::isfinite(of.least)) bare[of.isAbove ? "exclusiveMinimum" : "minimum"] = of.least / of.scale;
-    if (of.most < std::numeric_limits<double>::max()) bare["maximum"] = of.most / of.scale;
-    add(key, {{"anyOf", Json::array({bare, Json{{"type", "string"}}})}});  // "64 MB", "5 %"
-  }
-  void integer(const Key& key, std::int64_t least, std::int64_t most, bool allowsAuto,
-               std::int64_t& /*value*/) override {
-    add(key, orAuto({{"type", "integer"}, {"minimum", least}, {"maximum", most}}, allowsAuto));
-  }
-  void choice(const Key& key, const std::vector<std::string>& words,
-              const std::function<void(const std::string&)>& /*take*/) override {
-    add(key, {{"enum", words}});
-  }
-  void table(const Key& key, const std::function<void(Settings&)>& describe) override {
-    SchemaWriter within;
-    describe(within);
-    add(key, within.schema());
-  }
-  void own(const Key& key, const char* schema) override { add(key, Json::parse(schema)); }
-
-  Json schema() const {
-    Json closed = closedTable(properties_);
-    if (!required_.empty()) closed["required"] = required_;
-    return closed;
-  }
-
- private:
-  static Json orAuto(const Json& schema, bool allowsAuto) {
-    return allowsAuto ? Json{{"anyOf", Json::array({schema, Json{{"const", "auto"}}})}} : schema;
-  }
-
-  void add(const Key& key, Json schema) {
-    const bool isRequired = key.otherwise == "required";
-    if (schema.contains("$ref")) schema = {{"allOf", Json::array({schema})}};  // beside it nothing else counts
-    schema["description"] = described(key.meaning, isRequired ? "" : key.otherwise);
-    properties_[key.name] = std::move(schema);
-    if (isRequired) required_.push_back(key.name);
-  }
-
-  Json properties_ = Json::object(), required_ = Json::array();
-};
+/// A number, or a text with one and a unit.
+Json numberSchema() { return {{"type", {"number", "string"}}}; }
+Json pairSchema() { return {{"type", "array"}, {"items", numberSchema()}, {"minItems", 2}, {"maxItems", 2}}; }
 
 class ShapeWriter final : public ShapeFields {
  public:
   explicit ShapeWriter(std::string_view type) : properties_{{"type", Json{{"const", type}}}} {}
 
-  void support(Interval& /*support*/) override { properties_["support"] = {{"$ref", "#/definitions/pair"}}; }
-  void number(const ShapeWord& word, double& /*number*/) override { add(word, {{"type", {"number", "string"}}}); }
+  void support(Interval& /*support*/) override {
+    properties_["support"] = pairSchema();
+    properties_["support"]["description"] = "[lower, upper], inside the interval. Otherwise: the interval.";
+  }
+  void number(const ShapeWord& word, double& /*number*/) override { add(word, numberSchema(), !word.isNominal); }
   void parameter(const ShapeWord& word, Trend /*trend*/, Interval& /*number*/) override {
-    add(word, {{"type", {"number", "string", "array"}}});
+    add(word, {{"type", {"number", "string", "array"}}}, !word.isNominal);
   }
   void pair(const ShapeWord& word, const std::array<std::string, 2>& /*names*/, Interval& /*pair*/) override {
     array(word);
@@ -113,16 +73,22 @@ class ShapeWriter final : public ShapeFields {
     return false;
   }
 
-  Json schema() const { return closedTable(properties_); }
-
- private:
-  void array(const ShapeWord& word) { add(word, {{"type", "array"}}); }
-  void add(const ShapeWord& word, Json schema) {
-    schema["description"] = word.meaning;
-    properties_[word.key] = std::move(schema);
+  Json schema() const {
+    Json closed = closedTable(properties_);
+    closed["required"] = required_;
+    return closed;
   }
 
-  Json properties_;
+ private:
+  /// A file may stand for lists.
+  void array(const ShapeWord& word) { add(word, {{"type", "array"}}, false); }
+  void add(const ShapeWord& word, Json schema, bool isRequired) {
+    schema["description"] = word.meaning + (word.isOfQuantity ? "" : ", without unit");
+    properties_[word.key] = std::move(schema);
+    if (isRequired) required_.push_back(word.key);
+  }
+
+  Json properties_, required_ = Json::array({"type"});
 };
 
 /// Tables whose type says what else they hold.
@@ -152,6 +118,63 @@ Json shapeSchema(const Types& types) {
   return byType(all, Json::array({"type"}));
 }
 
+/// Plain types only: editors find neither keys nor meanings behind references and alternatives.
+class SchemaWriter final : public Settings {
+ public:
+  /// `shapes`: what distributions and memberships are.
+  explicit SchemaWriter(const Json& shapes) : shapes_(shapes) {}
+
+  void any(const Key& key) override { add(key, Json::object()); }
+
+  void flag(const Key& key, bool& /*value*/, bool allowsAuto) override { add(key, orAuto("boolean", allowsAuto)); }
+  void number(const Key& key, const NumberOf& of, double& /*value*/) override {
+    Json schema = numberSchema();  // whose limits are those of numbers alone
+    if (std::isfinite(of.least)) schema[of.isAbove ? "exclusiveMinimum" : "minimum"] = of.least / of.scale;
+    if (of.most < std::numeric_limits<double>::max()) schema["maximum"] = of.most / of.scale;
+    add(key, std::move(schema));
+  }
+  void integer(const Key& key, std::int64_t least, std::int64_t most, bool allowsAuto,
+               std::int64_t& /*value*/) override {
+    Json schema = orAuto("integer", allowsAuto);
+    schema["minimum"] = least;
+    schema["maximum"] = most;
+    add(key, std::move(schema));
+  }
+  void choice(const Key& key, const std::vector<std::string>& words,
+              const std::function<void(const std::string&)>& /*take*/) override {
+    add(key, {{"enum", words}});
+  }
+  void table(const Key& key, const std::function<void(Settings&)>& describe) override {
+    SchemaWriter within(shapes_);
+    describe(within);
+    add(key, within.schema());
+  }
+  void own(const Key& key, const char* schema) override {
+    add(key, shapes_.contains(schema) ? shapes_[schema] : Json::parse(schema));
+  }
+
+  Json schema() const {
+    Json closed = closedTable(properties_);
+    if (!required_.empty()) closed["required"] = required_;
+    return closed;
+  }
+
+ private:
+  static Json orAuto(const char* type, bool allowsAuto) {
+    return allowsAuto ? Json{{"type", {type, "string"}}, {"pattern", "^auto$"}} : Json{{"type", type}};
+  }
+
+  void add(const Key& key, Json schema) {
+    const bool isRequired = key.otherwise == "required";
+    schema["description"] = described(key.meaning, isRequired ? "" : key.otherwise);
+    properties_[key.name] = std::move(schema);
+    if (isRequired) required_.push_back(key.name);
+  }
+
+  const Json& shapes_;
+  Json properties_ = Json::object(), required_ = Json::array();
+};
+
 /// The keys of one type of element, beside those that all have.
 Json elementSchema(const Described& type) {
   const ElementWords turning = wordsOf(type), sliding = wordsOf(type, Coordinate::displacement);
@@ -177,18 +200,23 @@ Json elementSchema(const Described& type) {
 Json mechanismSchema(const std::vector<Described>& types) {
   std::vector<std::pair<std::string, Json>> elements;
   for (const Described& type : types) elements.emplace_back(type.type(), elementSchema(type));
-  const Json vector = {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}}, table = {{"type", "object"}},
-             flag = {{"type", "boolean"}};
+  const auto vector = [](const char* meaning) {
+    return Json{{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"description", meaning}};
+  };
+  const auto of = [](const char* type, const char* meaning) { return Json{{"type", type}, {"description", meaning}}; };
   Json properties = {
-      {"gravity", vector},
-      {"base_acceleration", vector},
-      {"parameters", table},
-      {"urdf", {{"type", "string"}, {"description", "a robot's description (URDF), from the study's folder"}}},
-      {"base", {{"enum", {"fixed", "free"}}}},
-      {"damping", flag},
-      {"friction", flag},
-      {"mimic", flag},
-      {"initial", table},
+      {"gravity", vector("[x, y, z], the acceleration of free fall, m/s^2. Otherwise: none.")},
+      {"base_acceleration",
+       vector("[x, y, z], of the frame `inertial`, m/s^2: numbers, or expressions of time and parameters")},
+      {"parameters", of("object", "numbers with names, which others may follow from")},
+      {"urdf", of("string", "a robot's description (URDF), from the study's folder")},
+      {"base",
+       {{"enum", {"fixed", "free"}},
+        {"description", "of the robot: whether its root moves freely. Otherwise: fixed."}}},
+      {"damping", of("boolean", "of the robot: whether joints have their viscous damping. Otherwise: true.")},
+      {"friction", of("boolean", "of the robot: whether joints have their dry friction. Otherwise: true.")},
+      {"mimic", of("boolean", "of the robot: whether joints follow others. Otherwise: true.")},
+      {"initial", of("object", "of the robot: where its joints are at the start, and how fast. Otherwise: 0.")},
       {"element", {{"type", "array"}, {"items", byType(elements, Json::array({"type", "name"}))}}}};
   return closedTable(std::move(properties));
 }
@@ -197,9 +225,12 @@ Json mechanismSchema(const std::vector<Described>& types) {
 
 std::string studySchema(const std::vector<Described>& types) {
   Json properties = {{"mechanism", mechanismSchema(types)}}, required = Json::array({"mechanism"});
+  properties["mechanism"]["description"] = "what moves: elements, in the order of their assembly";
+  const Json shapes = {{"distribution", shapeSchema(distributionTypes())},
+                       {"membership", shapeSchema(membershipTypes())}};
   Study study;
   for (const StudySection& section : studySections()) {
-    SchemaWriter writer;
+    SchemaWriter writer(shapes);
     section.describe(writer, study);
     Json schema = section.isList ? Json{{"type", "array"}, {"items", writer.schema()}} : writer.schema();
     schema["description"] = section.meaning;
@@ -209,12 +240,6 @@ std::string studySchema(const std::vector<Described>& types) {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "A study of Gamut"}};
   schema.update(closedTable(std::move(properties)));
   schema["required"] = std::move(required);
-  const Json number = {{"type", {"number", "string"}}};
-  schema["definitions"] = {
-      {"number", number},
-      {"distribution", shapeSchema(distributionTypes())},
-      {"membership", shapeSchema(membershipTypes())},
-      {"pair", {{"type", "array"}, {"items", {{"$ref", "#/definitions/number"}}}, {"minItems", 2}, {"maxItems", 2}}}};
   return schema.dump(1) + "\n";
 }
 

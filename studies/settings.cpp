@@ -10,7 +10,7 @@
 namespace gamut {
 namespace {
 
-constexpr const char *text = R"({"type": "string"})", *number = R"({"$ref": "#/definitions/number"})";
+constexpr const char *text = R"({"type": "string"})", *number = R"({"type": ["number", "string"]})";
 
 void describeStudy(Settings& s, Study&) {
   s.own({"title", "text", "the file's name"}, text);
@@ -22,7 +22,7 @@ void describeStudy(Settings& s, Study&) {
   s.own({"horizon", "end of the motion, s", "required but in kinematics", true}, number);
   s.own({"output_step", "outputs at 0, step, 2 step, … and at the horizon, s", "this or `output_times`", true}, number);
   s.own({"output_times", "list of rising times, s; 0 and the horizon are added", "", true},
-        R"({"type": "array", "items": {"$ref": "#/definitions/number"}, "minItems": 1})");
+        R"({"type": "array", "items": {"type": ["number", "string"]}, "minItems": 1})");
   s.own(
       {"compare", "list of `\"interval\"` (guaranteed), `\"stochastic\"` (probable), `\"fuzzy\"` (possible)",
        "all three"},
@@ -43,28 +43,29 @@ void describeUncertain(Settings& s, Study&) {
        "0), or `[lower, upper]`",
        "the least that holds the supports (points of a table) of distribution and membership, one of which is "
        "required then"},
-      R"({"anyOf": [{"type": "string"}, {"$ref": "#/definitions/pair"}]})");
+      R"({"anyOf": [{"type": "string"}, {"type": "array", "items": {"type": ["number", "string"]}, "minItems": 2, "maxItems": 2}]})");
   s.own({"distribution",
          "`{ type = \"uniform\" }`, or another one [below](#distributions-and-memberships), with its keys", "uniform"},
-        R"({"$ref": "#/definitions/distribution"})");
+        "distribution");
   s.own({"varies", "`\"freely\"`: it is no constant, but may take any course within the interval", "constant"},
         R"({"enum": ["freely"]})");
   s.own({"rate",
          "it may take any course within the interval that changes by no more than this in a second: `\"± 0.1 rad/s\"`",
          "constant"},
         number);
-  s.own({"membership", "`{ type = \"triangular\" }`, or another one below", "triangular"},
-        R"({"$ref": "#/definitions/membership"})");
+  s.own({"membership", "`{ type = \"triangular\" }`, or another one below", "triangular"}, "membership");
 }
 
 void describeDependence(Settings& s, Study&) {
-  s.own({"quantities", "names of two or more uncertain quantities, constant in time"},
+  s.own({"quantities", "names of two or more uncertain quantities, constant in time", "required"},
         R"({"type": "array", "items": {"type": "string"}, "minItems": 2})");
   s.own({"rank_correlation",
          "of two a number, of more a matrix `[[1, 0.5, 0], [0.5, 1, 0.2], [0, 0.2, 1]]`: Spearman's; the quantities "
-         "then have a Gaussian copula, and the matrix 2 sin(π ρ/6) of its normal numbers must be positive definite"},
-        R"({"anyOf": [{"$ref": "#/definitions/number"}, {"type": "array", "items": {"type": "array"}}]})");
-  s.own({"unknown", "`true`: nothing is known of how these depend on each other"}, R"({"const": true})");
+         "then have a Gaussian copula, and the matrix 2 sin(π ρ/6) of its normal numbers must be positive definite",
+         "this or `unknown`"},
+        R"({"anyOf": [{"type": ["number", "string"]}, {"type": "array", "items": {"type": "array"}}]})");
+  s.own({"unknown", "`true`: nothing is known of how these depend on each other", "this or `rank_correlation`"},
+        R"({"const": true})");
 }
 
 void describeOutput(Settings& s, Study&) {
@@ -103,11 +104,14 @@ void describeInterval(Settings& s, Study& study) {
        .fault = "is not above 1",
        .expected = "the overestimation that is aimed at, such as 1.02"},
       flow.tightness);
-  s.number(
-      {"tolerance", "truncation error aimed at in a step, relative",
-       "chosen: by the tightness, the box and how many quantities are uncertain", true},
-      {.least = 0, .most = 1, .isAbove = true, .fault = "is not between 0 and 1", .expected = "a small number above 0"},
-      flow.tolerance);
+  s.number({"tolerance", "truncation error aimed at in a step, relative; above 0, at most 1",
+            "chosen: by the tightness, the box and how many quantities are uncertain", true},
+           {.least = 0,
+            .most = 1,
+            .isAbove = true,
+            .fault = "is not positive, or above 1",
+            .expected = "a small number above 0"},
+           flow.tolerance);
   s.whole({"order", "of the series in time (4 to 30); `\"auto\"` or a number", "by the tolerance, 7 to 20", true}, 4,
           30, flow.order, true);
   s.whole({"degree", "of the polynomials in the uncertain quantities (1 to 30); `\"auto\"` or a number",
@@ -118,7 +122,8 @@ void describeInterval(Settings& s, Study& study) {
           "bisected only where a step fails otherwise, not for a tighter enclosure",
           "true", true},
          flow.split, true);
-  s.whole({"max_pieces", "into how many pieces it may be bisected", "2000", true}, 1, 1000000, flow.maxPieces);
+  s.whole({"max_pieces", "into how many pieces it may be bisected (1 to 1 000 000)", "2000", true}, 1, 1000000,
+          flow.maxPieces);
 }
 
 /// What may be kept of something in the results, bytes.
@@ -170,7 +175,7 @@ void describeDistribution(Settings& s, Study& study) {
          "(`[\"1 s\", 2]`), which become output times",
          "10"},
         R"({"anyOf": [{"type": "integer", "minimum": 0, "maximum": 1000},)"
-        R"( {"type": "array", "items": {"$ref": "#/definitions/number"}}]})");
+        R"( {"type": "array", "items": {"type": ["number", "string"]}}]})");
   s.number({"gap", "how far apart the bounds of a probability may be, 0.001 to 1", "0.005"},
            {.least = 0.001,
             .most = 1,
@@ -192,7 +197,7 @@ void describeSensitivity(Settings& s, Study& study) {
 }
 
 void describeFuzzy(Settings& s, Study& study) {
-  s.whole({"levels", "number of alpha-cuts from 0 to 1", "11"}, 2, 101, study.levels);
+  s.whole({"levels", "number of alpha-cuts from 0 to 1 (2 to 101)", "11"}, 2, 101, study.levels);
   s.choice({"method",
             "where samples are put inside the alpha-cuts, by the transformation method after Hanss: `\"reduced\"`, "
             "`\"general\"` or `\"extended\"`, see below",

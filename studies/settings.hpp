@@ -59,7 +59,7 @@ class Settings {
   }
   /// A table of settings.
   virtual void table(const Key& key, const std::function<void(Settings&)>& /*describe*/) { any(key); }
-  /// What its reader reads for itself; `schema` is JSON Schema.
+  /// What its reader reads for itself; `schema` is JSON Schema, or the word "distribution" or "membership".
   virtual void own(const Key& key, const char* /*schema*/) { any(key); }
 
   void optional(const Key& key, const NumberOf& of, std::optional<double>& value) {

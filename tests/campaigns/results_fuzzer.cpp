@@ -15,10 +15,10 @@
 #include <string>
 
 #include "reports/report.hpp"
+#include "reports/summary.hpp"
 #include "reports/verdict.hpp"
 #include "studies/printable.hpp"
 #include "studies/results/results_file.hpp"
-#include "reports/summary.hpp"
 #include "tests/studies/damage.hpp"
 #include "tests/studies/sample_results.hpp"
 

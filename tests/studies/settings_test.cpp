@@ -83,6 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         FaultyStudy{"unknownElement", "type = \"revolute\"", "type = \"revolut\""},
         FaultyStudy{"unknownKeyOfAnElement", "axis = \"x\"", "aksis = \"x\""},
         FaultyStudy{"unknownMembership", "type = \"triangular\"", "type = \"triangel\""},
+        FaultyStudy{"missingDeviation", "type = \"triangular\"", "type = \"gaussian\""},
         FaultyStudy{"keyOfAnotherMembership", "type = \"triangular\"", "type = \"triangular\", centre = 0.5"},
         FaultyStudy{"unknownInitialValue", "initial = { angle", "initial = { angel"}),
     [](const auto& test) { return test.param.what; });
