@@ -31,7 +31,7 @@ std::string described(const std::string& guide, const std::string& otherwise) {
   const std::string meaning = std::regex_replace(guide, link, "$1");
   if (otherwise.empty()) return meaning;
   const bool isCondition = otherwise.find("required") != otherwise.npos || otherwise.starts_with("this or");
-  return fmt::format("{}. {}{}.", meaning, isCondition ? "" : "Otherwise: ", otherwise);
+  return fmt::format("{}{}{}.", meaning, isCondition ? "; " : ". Otherwise: ", otherwise);
 }
 
 Json closedTable(Json properties) {

@@ -173,7 +173,7 @@ void describeDistribution(Settings& s, Study& study) {
   s.own({"times",
          "of which output times probabilities are bounded: how many, spread evenly (up to 1000; 0: none), or a list "
          "(`[\"1 s\", 2]`), which become output times",
-         "10"},
+         "10", true},
         R"({"anyOf": [{"type": "integer", "minimum": 0, "maximum": 1000},)"
         R"( {"type": "array", "items": {"type": ["number", "string"]}}]})");
   s.number({"gap", "how far apart the bounds of a probability may be, 0.001 to 1", "0.005"},

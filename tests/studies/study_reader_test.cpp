@@ -1596,6 +1596,10 @@ TEST(StudyReader, RefusesInKinematicsWhatOnlyAMotionHas) {
                                                                  " has no meaning in kinematics; expected no such key");
   }
   EXPECT_EQ(messageOf(text + "[interval]\ndegree = 3\n"), "it was read");
+  for (const char* times : {"0", "3", "[\"1 s\"]"})
+    EXPECT_EQ(messageOf(text + "[distribution]\ntimes = " + times + "\n"),
+              "s.toml:42:9: distribution.times has no meaning in kinematics; expected no such key");
+  EXPECT_EQ(messageOf(text + "[distribution]\ngap = 0.01\n"), "it was read");
 }
 
 INSTANTIATE_TEST_SUITE_P(StudyReader, BadStudyFile, ::testing::ValuesIn(badStudies));
