@@ -51,7 +51,7 @@ void takeCourses(Machine& machine) {
   }
   if (machine.courses.empty()) return;
   machine.slowest = 2 * std::numbers::pi / machine.study.horizon;
-  machine.fastest = std::max(16 * machine.slowest, 2 * fastestTurn(machine.equations.f, machine.motion.nominal));
+  machine.fastest = std::max(16 * machine.slowest, 2 * fastestTurn(machine.motion.motion.f, machine.motion.nominal));
   Motion& motion = machine.motion.motion;
   switching.motion = motion;
   for (Program* program : {&motion.f, &motion.g, &motion.sampled})
@@ -163,11 +163,6 @@ std::vector<Expression> outputExpressions(const Study& study) {
   return expressions;
 }
 
-Expression WantedOutput::inUnit() const {
-  const Amount one = oneOfUnit(unit);
-  return one.value == 1 && one.piPower == 0 ? expression : expression / Expression(one);
-}
-
 Motion recordedMotion(const Study& study) {
   Motion motion;
   motion.times = study.times;
@@ -184,9 +179,8 @@ Motion recordedMotion(const Study& study) {
 
 Machine::Machine(Study of) : study(std::move(of)), freeParameters(freeParametersOf(study)) {
   const double start = processCpuSeconds();
-  equations = recordedMotion(study);
+  motion.motion = recordedMotion(study);
   cpu = processCpuSeconds() - start;
-  motion.motion = equations;
   takeNumbers(*this);
   takeCourses(*this);
   takeLevels(*this);

@@ -32,10 +32,9 @@ struct Machine {
   double cpu = 0;  ///< s, that recording took
   std::size_t states = 0;
   std::vector<std::string> freeParameters;
-  Motion equations;           ///< what varies in time is a parameter of them; kinematics: g of parameters alone
-  Box box;                    ///< initial values, then free parameters; uncertain ones have their ranges
-  std::vector<double> alpha;  ///< membership levels, 0 first; empty unless alpha-cuts are asked for
-  std::vector<Box> levels;    ///< the box with the alpha-cuts of the uncertain quantities, one a level
+  Box box;                                  ///< initial values, then free parameters; uncertain ones have their ranges
+  std::vector<double> alpha;                ///< membership levels, 0 first; empty unless alpha-cuts are asked for
+  std::vector<Box> levels;                  ///< the box with the alpha-cuts of the uncertain quantities, one a level
   std::vector<ConstantQuantity> constants;  ///< those that do not vary in time
   std::vector<VaryingParameter> varying;    ///< free parameters that vary in time
   std::vector<VaryingQuantity> courses;     ///< what of them the samples take, turning no slower and no faster than so
@@ -43,6 +42,8 @@ struct Machine {
   UncertainMotion motion;  ///< the equations as samples follow them: what varies in time takes the course that its
                            ///< number chooses
 
+  /// In which what varies in time is a parameter; kinematics: g of parameters alone.
+  const Motion& equations() const { return courses.empty() ? motion.motion : motion.switching.motion; }
   /// A program of states and free parameters as samples follow it: what varies in time takes its course.
   Program alongCourses(const Program& program) const;
 };

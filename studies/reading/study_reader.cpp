@@ -9,7 +9,6 @@
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -464,12 +463,6 @@ class StudyReader {
 };
 
 }  // namespace
-
-const std::string& StudyPlaces::of(std::string name) const {
-  while (!named.contains(name) && name.find('.') != std::string::npos) name.resize(name.rfind('.'));
-  const auto found = named.find(name);
-  return found == named.end() ? mechanism : found->second;
-}
 
 Study readStudyText(const std::string& text, const std::string& name, const std::vector<Described>& types,
                     const std::optional<FilesAtHand>& files, const ShapeTypes& shapes) {

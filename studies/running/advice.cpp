@@ -122,7 +122,7 @@ class Trials {
     const double work = 0.5 * left_;
     if (!(left_ > least) || *run_.watch.stop()) return std::nullopt;
     options.budget = work / Work::perSecond;
-    const Motion& motion = run_.machine.equations;
+    const Motion& motion = run_.machine.equations();
     const std::uint64_t began = Work::counted();
     const Tube tube = Flow(motion.f, motion.g, std::move(options)).enclose(box, run_.study.horizon, motion.times);
     left_ -= static_cast<double>(Work::counted() - began);

@@ -54,7 +54,7 @@ void encloseDerivatives(Run& run) {
   options.budget = run.study.shares.derivatives * std::max(run.spent.enclosure / Work::perSecond, 1.0);
   try {
     if (!(options.budget > 0)) throw std::invalid_argument("limits.derivatives leaves them nothing");
-    const DerivativeFlow flow(run.machine.equations.f, run.machine.equations.g, by, std::move(options));
+    const DerivativeFlow flow(run.machine.equations().f, run.machine.equations().g, by, std::move(options));
     const Tube tube = flow.enclose(run.machine.box, run.study.horizon, run.study.times);
     result.reached = tube.reached();
     if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();

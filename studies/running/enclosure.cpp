@@ -37,7 +37,7 @@ void encloseMotion(Run& run) {
   const bool areAlone = run.study.requirements.empty() && !asksForDistributions(run.study);  // no other answers follow
   flow.levelShare = shares.cuts + (areAlone ? shares.requirements + shares.probabilities : 0);
   flow.levelBudget = flow.levelShare * std::max(run.spent.samples / Work::perSecond, Shares::least);
-  const Motion& motion = run.machine.equations;  // of the samples', what varies in time has a course
+  const Motion& motion = run.machine.equations();  // of the samples', what varies in time has a course
   const Tube tube =
       Flow(motion.f, motion.g, flow).enclose(run.machine.box, run.study.horizon, run.study.times, run.machine.levels);
   if (tube.times() != run.study.times) throw std::logic_error("the flow's output times are not the study's");

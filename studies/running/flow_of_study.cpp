@@ -42,7 +42,7 @@ FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool
     flow.longestStep = longestStepOf(study);
   }
   flow.varying = machine.varying;
-  flow.rests = machine.equations.rests;
+  flow.rests = machine.equations().rests;
   flow.dropsUnneeded = true;
   return flow;
 }
@@ -90,7 +90,7 @@ CellQuestion questionOf(const Study& study, const Requirement& requirement, cons
 }
 
 Tube modelMargins(const Machine& machine, FlowOptions options, const Box& box) {
-  return modelMarginsOf(machine.study, machine.equations, std::move(options), box, machine.study.times);
+  return modelMarginsOf(machine.study, machine.equations(), std::move(options), box, machine.study.times);
 }
 
 Tube modelMarginsOf(const Study& study, const Motion& motion, FlowOptions options, const Box& box,
@@ -104,10 +104,10 @@ Tube modelAll(const Machine& machine, FlowOptions options, const Box& box) {
   std::vector<int> all = marginOutputs(study);
   const std::size_t margins = all.size();
   std::ranges::copy(plainOutputs(study), std::back_inserter(all));
-  Program g = programOf(machine.equations.g, all, options.modelled);
+  Program g = programOf(machine.equations().g, all, options.modelled);
   options.modelledAt.assign(options.modelled.begin() + static_cast<std::ptrdiff_t>(margins), options.modelled.end());
   options.modelled.resize(margins);
-  return Flow(machine.equations.f, std::move(g), std::move(options)).enclose(box, study.horizon, study.times);
+  return Flow(machine.equations().f, std::move(g), std::move(options)).enclose(box, study.horizon, study.times);
 }
 
 }  // namespace gamut

@@ -1,6 +1,5 @@
 // The joint distribution of the quantities.
 #include <algorithm>
-#include <utility>
 
 #include "studies/running/units.hpp"
 

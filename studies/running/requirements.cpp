@@ -281,7 +281,7 @@ std::shared_ptr<const FlowModels> sharpenedModels(const Run& run) {
   const bool isAtZero = std::ranges::find(isStrict, false) != isStrict.end();
   const std::shared_ptr<const FlowModels> models = sharpenedByEnclosure(run, run.enclosed.models);
   if (!isAtZero || !run.machine.varying.empty() || run.study.horizon == 0) return models;
-  return sharpenedAtStart(models, run.machine.equations.f, run.machine.equations.g, marginOutputs(run.study),
+  return sharpenedAtStart(models, run.machine.equations().f, run.machine.equations().g, marginOutputs(run.study),
                           run.machine.box);
 }
 

@@ -81,10 +81,10 @@ class Finder {
     Box box = machine_.box;
     for (const auto [number, slot] : machine_.constants)
       box[static_cast<std::size_t>(slot)] = study_.uncertain[number].uncertain.nominal;
-    const auto models =
-        study_.analysis == Study::Analysis::kinematics
-            ? modelImage(machine_.equations.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled)
-            : modelMargins(machine_, ownOptions(), box).models();
+    const auto models = study_.analysis == Study::Analysis::kinematics
+                            ? modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_), study_.flow.degree,
+                                         options_.cancelled)
+                            : modelMargins(machine_, ownOptions(), box).models();
     for (const Requirement& requirement : study_.requirements)
       if (models && models->at.size() > rowOf(study_.times, requirement.demand.until) &&
           Cells(*models, questionOf(study_, requirement, models->at.size())).whole()->verdict() ==
@@ -114,7 +114,7 @@ class Finder {
     try {
       if (study_.analysis == Study::Analysis::kinematics) {
         models =
-            modelImage(machine_.equations.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled);
+            modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled);
       } else {
         const Tube tube = modelMargins(machine_, ownOptions(), box);
         models = tube.models();

@@ -87,7 +87,7 @@ class ThinFlows {
  private:
   /// Programs in which what varies takes its course; nothing where no such course is certainly meant.
   std::optional<ThinMotion> motionAt(const std::vector<double>& values) const {
-    ThinMotion thin{run_.machine.equations, run_.machine.box, run_.machine.varying};
+    ThinMotion thin{run_.machine.equations(), run_.machine.box, run_.machine.varying};
     std::vector<VaryingQuantity> courses;
     std::vector<std::pair<int, SwitchingCourse>> switching;
     const std::vector<SwitchingCourse>* const switchingAt = run_.motion.switchingAt(values);
@@ -126,7 +126,7 @@ class ThinFlows {
 
   Thin thinAt(const ThinMotion& of, const std::vector<double>& times) {
     if (run_.study.analysis == Study::Analysis::kinematics)
-      return {modelImage(run_.machine.equations.g, 0.0, of.box, marginOutputs(run_.study), run_.study.flow.degree,
+      return {modelImage(run_.machine.equations().g, 0.0, of.box, marginOutputs(run_.study), run_.study.flow.degree,
                          run_.watch.stop()),
               {0.0},
               {}};
