@@ -2,7 +2,6 @@
 // It is read from a TOML file (docs/study-file.md); whatever is wrong there is said with file, line and column.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 #include "mechanics/description/names.hpp"
 #include "studies/reading/settings_reader.hpp"

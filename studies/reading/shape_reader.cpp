@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
 #include <utility>
 
 #include "analyses/consistency.hpp"
@@ -17,6 +15,10 @@ namespace gamut {
 namespace {
 
 constexpr Dimension unitless{};
+
+std::string numberIn(const Dimension& dimension) {
+  return dimension == unitless ? "a number without unit" : fmt::format("a number in {}", unitOf(dimension));
+}
 constexpr const char* induced = "induced";
 
 /// The words of a shape.
@@ -203,8 +205,7 @@ class ShapeFilling final : public StatedShape {
     if (node == nullptr && word.isNominal)
       number = quantity_.uncertain.nominal;
     else
-      number = nearest(value(section_.require(word.key, fmt::format("a number in {}", unitOf(dimension))),
-                             section_.nameOf(word.key), dimension));
+      number = nearest(value(section_.require(word.key, numberIn(dimension)), section_.nameOf(word.key), dimension));
     checkNumber(word, number);
   }
 
@@ -215,8 +216,7 @@ class ShapeFilling final : public StatedShape {
     if (node == nullptr && word.isNominal) {
       number = quantity_.uncertain.nominal;
     } else {
-      const toml::node& found =
-          section_.require(word.key, fmt::format("a number in {}, or an interval of such numbers", unitOf(dimension)));
+      const toml::node& found = section_.require(word.key, numberIn(dimension) + ", or an interval of such numbers");
       const std::string what = section_.nameOf(word.key);
       number = found.is_array()
                    ? readPair(source_, found, what, dimension)

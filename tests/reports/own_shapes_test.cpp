@@ -119,9 +119,10 @@ TEST(OwnShapes, AreRefusedLikeOthers) {
   EXPECT_EQ(refusalOfOwn("{ type = \"power\", exponnt = 3 }", ownTent),
             "s.toml:32:34: unknown key 'exponnt' in [uncertain.distribution]; expected 'exponent'? (one of: type, "
             "support, exponent)");
-  EXPECT_EQ(refusalOfOwn("{ type = \"power\" }", ownTent),
-            "s.toml:32:16: 'uncertain.distribution.exponent' is missing; expected a number in 1, or an interval of "
-            "such numbers");
+  EXPECT_EQ(
+      refusalOfOwn("{ type = \"power\" }", ownTent),
+      "s.toml:32:16: 'uncertain.distribution.exponent' is missing; expected a number without unit, or an interval of "
+      "such numbers");
   EXPECT_EQ(refusalOfOwn("{ type = \"power\", exponent = 0.5 }", ownTent),
             "s.toml:32:16: the exponent is below 1, at 0.5; expected a distribution inside the interval");
   EXPECT_EQ(refusalOfOwn(ownPower, "{ type = \"tent\", reach = -1 }"),

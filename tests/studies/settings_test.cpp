@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,12 +13,15 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
+#include "studies/results/results.hpp"
 #include "studies/schema.hpp"
 #include "studies/settings.hpp"
 #include "tests/studies/sample_study.hpp"
 
 namespace gamut {
 namespace {
+
+using ::testing::HasSubstr;
 
 std::string textIn(const std::string& path) {
   std::ifstream file(path);
@@ -53,6 +57,25 @@ TEST(StudySchema, AllowsAllThatIsShipped) {
   for (const auto& folder : std::filesystem::directory_iterator(GAMUT_SOURCE_DIR "/studies/examples"))
     EXPECT_TRUE(isValid(textIn(folder.path() / "study.toml"))) << folder.path();
   EXPECT_TRUE(isValid(sampleStudy));
+}
+
+/// Words that stand in the schema and in what the reader makes of them.
+TEST(StudySchema, HasTheWordsThatTheReaderKnows) {
+  const nlohmann::json properties = nlohmann::json::parse(studySchema())["properties"];
+  std::string answers, keys;
+  const Results results;
+  for (const Answer* answer : results.answers()) answers += (answers.empty() ? "" : ", ") + std::string(answer->word());
+  EXPECT_THAT(messageOf(sampleStudyWith("\"fuzzy\"]", "\"fuzy\"]")), HasSubstr("(one of: " + answers + ")"));
+  const nlohmann::json& words = properties["study"]["properties"]["compare"]["items"]["enum"];
+  EXPECT_EQ(words.size(), results.answers().size());
+  for (const auto& word : words) EXPECT_THAT(answers, HasSubstr(word.get<std::string>()));
+  const std::string message = messageOf(sampleStudyWith("[mechanism]", "[mechanism]\nurdf = \"r.urdf\"\nzzz = 1"));
+  const std::string known = message.substr(message.find("one of: ") + 8);
+  for (const auto& [key, schema] : properties["mechanism"]["properties"].items()) {
+    EXPECT_THAT(known, HasSubstr(key));
+    keys += (keys.empty() ? "" : ", ") + key;
+  }
+  EXPECT_EQ(std::ranges::count(known, ','), std::ranges::count(keys, ',')) << known;
 }
 
 struct FaultyStudy {
