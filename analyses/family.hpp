@@ -9,8 +9,9 @@
 
 namespace gamut {
 
-/// Bounds are of all members of the family: those of distribution functions are above all others, or below them, where
-/// parameters are at the ends that their trends tell; parameters without a trend are divided into parts.
+/// Densities that rise to one mode and fall, or are nowhere bounded. Bounds are of all members of the family: those of
+/// distribution functions are above all others, or below them, where parameters are at the ends that their trends tell;
+/// parameters without a trend are divided into parts.
 class Family : public DistributionLaw {
  public:
   Interval on{0.0};  ///< the support
@@ -52,7 +53,8 @@ class Family : public DistributionLaw {
   std::vector<std::shared_ptr<const Family>> least_, greatest_;  // F above all others', and below them
 };
 
-/// What is truncated to its support: F(v) = (P(v) - P(lower))/(P(upper) - P(lower)).
+/// What is truncated to its support: F(v) = (P(v) - P(lower))/(P(upper) - P(lower)), so that its density is P's over
+/// what is in the support.
 class Truncated : public Family {
  public:
   std::vector<ShapeNumber> numbers() const final;

@@ -33,6 +33,7 @@ class BetaLaw final : public Family {
   std::string_view summary() const override {
     return "density proportional to v^(a-1) (1-v)^(b-1), v running from 0 to 1 over the support";
   }
+  /// exp(a log v), log v rising; exp(b log(1-v)), log(1-v) falling.
   void describe(ShapeFields& f) override {
     f.support(on);
     f.parameter({.key = "a", .meaning = "above 0", .isOfQuantity = false}, Trend::rises, a);

@@ -12,6 +12,7 @@ class ExponentialLaw final : public Truncated {
   std::string_view summary() const override {
     return "density proportional to exp(-v/mean), truncated to the support, which is not negative";
   }
+  /// exp(-v/mean), -1/mean rising with the mean.
   void describe(ShapeFields& f) override {
     f.support(on);
     f.parameter({.key = "mean", .meaning = "before truncation", .isNominal = true}, Trend::rises, mean);
@@ -30,6 +31,7 @@ class ExponentialLaw final : public Truncated {
   Interval enclosedAll(const Interval& value) const override {
     return -expm1(-intersection(value / mean, Interval(0.0, std::numeric_limits<double>::infinity())));
   }
+  /// At 0.
   Interval densest() const override { return Interval(1.0) / mean / inSupport(); }
 
   double below(double value) const override { return -std::expm1(-value / midpoint(mean)); }

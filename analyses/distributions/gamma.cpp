@@ -21,6 +21,7 @@ class GammaLaw final : public Truncated {
   std::string_view summary() const override {
     return "density proportional to v^(shape-1) exp(-v/scale), truncated to the support, which is not negative";
   }
+  /// exp(shape log v), log v rising; exp(-v/scale), -1/scale rising with the scale.
   void describe(ShapeFields& f) override {
     f.support(on);
     f.parameter({.key = "shape", .meaning = "above 0", .isOfQuantity = false}, Trend::rises, shape);

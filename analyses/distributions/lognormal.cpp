@@ -12,6 +12,7 @@ class LognormalLaw final : public Truncated {
   std::string_view summary() const override {
     return "the logarithm of the number in SI units is normal; truncated to the support, which is not negative";
   }
+  /// The logarithm, with which the number rises, is normal.
   void describe(ShapeFields& f) override {
     f.support(on);
     f.parameter({.key = "log_mean", .meaning = "mean of the logarithm", .isOfQuantity = false}, Trend::rises, mean);

@@ -8,6 +8,7 @@ class NormalLaw final : public Truncated {
  public:
   std::string_view name() const override { return "normal"; }
   std::string_view summary() const override { return "normal, truncated to the support"; }
+  /// In the mean m the density is h(x) exp(x m/σ²).
   void describe(ShapeFields& f) override {
     f.support(on);
     f.parameter({.key = "mean", .meaning = "before truncation", .isNominal = true}, Trend::rises, mean);
@@ -24,6 +25,7 @@ class NormalLaw final : public Truncated {
     requirePositive(deviation, "the deviation of a normal distribution");
   }
   Interval enclosedAll(const Interval& value) const override { return normalBelow((value - mean) / deviation); }
+  /// At its mean.
   Interval densest() const override { return Interval(1.0) / (deviation * sqrt(2.0 * pi())) / inSupport(); }
 
   double below(double value) const override { return aboutNormalBelow((value - midpoint(mean)) / midpoint(deviation)); }

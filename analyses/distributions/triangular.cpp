@@ -12,6 +12,7 @@ class TriangularLaw final : public Family {
   std::string_view summary() const override {
     return "density rising from the support's lower end to the mode and falling to its upper end";
   }
+  /// F falls with the mode: below it (v-lower)²/(span (mode-lower)), beyond it 1 - (upper-v)²/(span (upper-mode)).
   void describe(ShapeFields& f) override {
     f.support(on);
     f.parameter({.key = "mode", .meaning = "the densest value", .isNominal = true, .isInside = true}, Trend::rises,
@@ -46,6 +47,7 @@ class TriangularLaw final : public Family {
     };
     return intersection(rising(at, v), Interval(0.0, 1.0));
   }
+  /// At its mode.
   Interval densest() const override { return 2.0 / (Interval(on.upper()) - Interval(on.lower())); }
 };
 

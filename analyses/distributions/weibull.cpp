@@ -12,6 +12,7 @@ class WeibullLaw final : public Truncated {
   std::string_view summary() const override {
     return "P(v) = 1 - exp(-(v/scale)^shape), truncated to the support, which is not negative";
   }
+  /// exp(-v^shape/scale^shape), v^shape rising, -1/scale^shape rising with the scale.
   void describe(ShapeFields& f) override {
     f.support(on);
     f.parameter({.key = "shape", .meaning = "above 0", .isOfQuantity = false}, Trend::none, shape);

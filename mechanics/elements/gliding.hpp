@@ -48,6 +48,7 @@ class GlidingJoint final : public Joint<S> {
   Place<S> place() const override {
     return {Rotation<S>(axisZ, own_.angle->position), {*place_[0], *place_[1], S(0.0)}};
   }
+  /// The last is of `across`, where that is.
   std::vector<Twist<S>> motions() const override {
     return {{axisZ.unit<S>()}, {zeroVector<S>(), axisX.unit<S>()}, {zeroVector<S>(), axisY.unit<S>()}};
   }

@@ -1,7 +1,7 @@
 // Laws of everything that moves a frame by another, of whatever type, alone and in its surroundings: rates are rates of
 // what they are said to be of, what power goes in comes out, inertia is handed on as motion and force say, all
 // formulations are the same equations, and energy is kept. Numbers of 50 digits evaluate what was recorded, so that
-// no mistake hides in rounding. A new type of joint is tested without a line here.
+// no mistake hides in rounding. A new type of joint is tested without a line here; its operations are counted by one.
 #include <gmock/gmock.h>
 
 #include <map>
