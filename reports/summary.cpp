@@ -125,23 +125,92 @@ Json distributionObject(const Results& results) {
           {"outputs", outputs}};
 }
 
-/// At the last time of which they are known.
-Json derivativesObject(const Results& results) {
-  const DerivativeResult& d = results.derivatives;
-  if (!d.present) return nullptr;
-  Json outputs = Json::object();
-  const std::size_t quantities = results.uncertain.size();
-  for (std::size_t k = 0; k < results.outputs.size() && !d.time.empty(); ++k)
-    for (std::size_t q = 0; q < quantities; ++q) {
-      const std::size_t i = ((d.time.size() - 1) * results.outputs.size() + k) * quantities + q;
-      outputs[results.outputs[k].name][results.uncertain[q].name] =
-          Json::array({number(d.lower[i]), number(d.upper[i])});
+/// A number, a text or a count.
+Json valueOf(const FieldValue& value) {
+  return std::visit(Visitor{[](double* x) { return number(*x); }, [](std::int64_t* x) { return Json(*x); },
+                            [](std::uint64_t* x) { return Json(*x); }, [](bool* x) { return Json(*x); },
+                            [](std::string* x) { return textOrNull(*x); }, [](Choice x) { return Json(x.word()); },
+                            [](const auto&) { return Json(nullptr); }},
+                    value);
+}
+
+/// What a part that describes itself says of each output, and of each quantity if it does, at the last time: of the
+/// field's own times or of those up to which the part came.
+class OutputNumbers {
+ public:
+  OutputNumbers(const Results& results, const FurtherPart& part) : results_(results), part_(part) {}
+
+  /// Into {output name → [quantity →] `name` → number}, as entry `end` of two if it is one end of bounds; without a
+  /// name into its place.
+  void add(Json& outputs, const std::string& name, const Field& field, std::size_t times, int end = -1) const {
+    const auto* values = std::get_if<std::vector<double>*>(&field.value);
+    if (values != nullptr) add(outputs, name, field.dimensions, **values, times, end);
+    if (const auto* table = std::get_if<Table*>(&field.value))
+      add(outputs, name, field.dimensions, (*table)->data, times, end);
+    if (const auto* bounds = std::get_if<Envelope*>(&field.value)) {
+      add(outputs, name, field.dimensions, (*bounds)->lower.data, times, 0);
+      add(outputs, name, field.dimensions, (*bounds)->upper.data, times, 1);
     }
-  return {{"reached", d.reached},
-          {"why", textOrNull(d.why)},
-          {"time", d.time.empty() ? Json(nullptr) : Json(d.time.back())},
-          {"cpu", d.cpu},
-          {"outputs", outputs}};
+  }
+
+  /// How many of the study's times the part has reached.
+  std::size_t reachedTimes() const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(results_.time, part_.reached) - results_.time.begin());
+  }
+
+ private:
+  void add(Json& outputs, const std::string& name, const std::vector<std::string_view>& dimensions,
+           const std::vector<double>& values, std::size_t times, int end) const {
+    const bool isOfTime = dimensions.front() != dimension::output;
+    const std::size_t k = isOfTime ? 1 : 0;
+    if (dimensions.size() <= k || dimensions[k] != dimension::output || (isOfTime && times == 0)) return;
+    const bool isOfQuantity = dimensions.size() == k + 2 && dimensions[k + 1] == dimension::quantity;
+    if (dimensions.size() > k + (isOfQuantity ? 2 : 1)) return;
+    const std::size_t quantities = isOfQuantity ? results_.uncertain.size() : 1, count = results_.outputs.size();
+    for (std::size_t o = 0; o < count; ++o)
+      for (std::size_t q = 0; q < quantities; ++q) {
+        const std::size_t i = ((isOfTime ? times - 1 : 0) * count + o) * quantities + q;
+        if (i >= values.size()) continue;
+        Json* place = &outputs[results_.outputs[o].name];
+        if (isOfQuantity) place = &(*place)[results_.uncertain[q].name];
+        if (!name.empty()) place = &(*place)[name];
+        if (end >= 0) place = &(*place)[static_cast<std::size_t>(end)];
+        *place = number(values[i]);
+      }
+  }
+
+  const Results& results_;
+  const FurtherPart& part_;
+};
+
+/// Everything single that it says of itself, and the numbers of outputs at its last time; the file has all.
+Json objectOf(const Results& results, const FurtherPart& part) {
+  if (!part.present) return nullptr;
+  Json object = Json::object(), outputs = Json::object();
+  const OutputNumbers numbers(results, part);
+  std::vector<Group> groups;
+  const_cast<FurtherPart&>(part).describe(groups);  // resize, which alone changes anything, is not called
+  for (const Group& group : groups) {
+    if (group.isList() || group.size == 0) continue;
+    std::size_t times = numbers.reachedTimes();
+    for (const Field& field : group.fields(0)) {
+      const std::string name(field.name);
+      if (field.dimensions.empty()) {
+        if (name != "stopped") object[name] = valueOf(field.value);
+      } else if (isScale(group, field)) {
+        const auto* own = std::get_if<std::vector<double>*>(&field.value);
+        if (own == nullptr) continue;
+        times = (*own)->size();
+        object[name] = times == 0 ? Json(nullptr) : number((*own)->back());
+      } else {
+        const int end = name.ends_with("lower") ? 0 : name.ends_with("upper") ? 1 : -1;
+        const std::size_t stem = end < 0 ? name.size() : name.size() - std::min<std::size_t>(name.size(), 6);
+        numbers.add(outputs, name.substr(0, stem), field, times, end);
+      }
+    }
+  }
+  object["outputs"] = std::move(outputs);
+  return object;
 }
 
 /// What the samples say at the last time that all reached, with 95 % confidence intervals: [lower, upper].
@@ -516,7 +585,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["alpha_cuts"] = transformationObject(results);
   json["distribution"] = distributionObject(results);
   json["sensitivity"] = sensitivityObject(results);
-  json["derivatives"] = derivativesObject(results);
+  for (const Boxed<FurtherPart>& part : results.further) json[std::string(part->key())] = objectOf(results, *part);
   json["enclosure"] = boundsObject(results.interval.at, results);
   json["envelope"] = boundsObject(results.stochastic.envelope, results);
   Json& cost = json["cost"];
@@ -570,9 +639,11 @@ std::string textSummary(const Results& results) {
   text += statisticsText(results);
   text += transformationText(results);
   if (results.distribution.present) text += probabilitiesText(results);
-  if (const DerivativeResult& d = results.derivatives; d.present)
-    text +=
-        fmt::format("  derivatives: enclosed up to {}{}\n", reachedText(d.reached), d.why.empty() ? "" : ": " + d.why);
+  for (const Boxed<FurtherPart>& part : results.further)
+    if (part->present)
+      text += fmt::format("  {}: {}{}{}\n", part->title(), part->verb(),
+                          results.horizon > 0 ? " up to " + reachedText(part->reached) : "",
+                          part->why.empty() ? "" : ": " + part->why);
   const std::string spent = spentText(results);
   if (!isAnything || (costs.empty() && spent.empty())) return text;
   return text +

@@ -47,6 +47,11 @@ std::string_view withoutTime(std::string_view why) {
                                                                                      : why;
 }
 
+std::string capitalised(std::string text) {
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
 class Wording {
  public:
   explicit Wording(const Results& results) : results_(results), verdict_{findVerdict(results), {}, {}, {}} {}
@@ -88,11 +93,7 @@ class Wording {
   }
 
   /// As a sentence begins.
-  std::string sampleName(std::int64_t number) const {
-    std::string name = results_.stochastic.nameOf(number);
-    name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-    return name;
-  }
+  std::string sampleName(std::int64_t number) const { return capitalised(results_.stochastic.nameOf(number)); }
 
   // ---- Notes --------------------------------------------------------------------------------------------------------
 
@@ -100,9 +101,9 @@ class Wording {
     const DistributionResult& distribution = results_.distribution;
     if (distribution.present && !distribution.stopped.empty())
       note(fmt::format("Probabilities were not bounded to the end: {}.", distribution.stopped));
-    const DerivativeResult& derivatives = results_.derivatives;
-    if (derivatives.present && !derivatives.stopped.empty())
-      note(fmt::format("Derivatives were not enclosed to the end: {}.", derivatives.stopped));
+    for (const Boxed<FurtherPart>& part : results_.further)
+      if (std::string text = part->unfinished(); !text.empty())
+        note(fmt::format("{}: {}.", capitalised(std::move(text)), part->stopped));
   }
 
   void noteUnlikely() {
@@ -364,7 +365,7 @@ class Wording {
       case Gap::unbounded:
       case Gap::end:
       case Gap::probability:
-      case Gap::derivative:
+      case Gap::further:
       case Gap::stopped:
       case Gap::none:
         break;
@@ -421,7 +422,7 @@ class Wording {
     if (verdict_.endsEarly) return text + (moves() ? horizonText() : " An analysis ended early.");
     if (verdict_.unbounded > 0) text += " Not every output is bounded.";
     if (verdict_.gap == Gap::probability) text += " Their probabilities were not bounded to the end.";
-    if (verdict_.gap == Gap::derivative) text += " Their derivatives were not enclosed to the end.";
+    if (verdict_.gap == Gap::further) text += fmt::format(" Their {}.", unfinished(results_));
     if (verdict_.gap == Gap::stopped) text += fmt::format(" Not all was done: {}.", results_.stopped);
     return text + (verdict_.missing > 0 ? " Not every number was there to compare." : "");
   }

@@ -229,7 +229,7 @@ std::string studySchema(const std::vector<Described>& types) {
   const Json shapes = {{"distribution", shapeSchema(distributionTypes())},
                        {"membership", shapeSchema(membershipTypes())}};
   Study study;
-  for (const StudySection& section : studySections()) {
+  for (const StudySection& section : studySections(study)) {
     SchemaWriter writer(shapes);
     section.describe(writer, study);
     Json schema = section.isList ? Json{{"type", "array"}, {"items", writer.schema()}} : writer.schema();

@@ -188,14 +188,6 @@ void describeDistribution(Settings& s, Study& study) {
       storageSize(), study.distribution.storage);
 }
 
-void describeSensitivity(Settings& s, Study& study) {
-  s.flag({"derivatives",
-          "whether derivatives of all outputs by the uncertain quantities are enclosed too, by a flow of its own, as "
-          "far as `limits.derivatives` allows; in dynamics, where nothing jumps",
-          "false"},
-         study.derivatives);
-}
-
 void describeFuzzy(Settings& s, Study& study) {
   s.whole({"levels", "number of alpha-cuts from 0 to 1 (2 to 101)", "11"}, 2, 101, study.levels);
   s.choice({"method",
@@ -249,20 +241,6 @@ void describeLimits(Settings& s, Study& study) {
         study.shares.derivatives);
 }
 
-constexpr StudySection sections[] = {
-    {"study", false, true, "what is asked of the mechanism, and when", describeStudy},
-    {"uncertain", true, false, "a number of the mechanism, or several, that is not known exactly", describeUncertain},
-    {"dependence", true, false, "how some of the uncertain quantities depend on each other", describeDependence},
-    {"output", true, true, "what is wanted of the motion", describeOutput},
-    {"requirement", true, false, "what the motion is to keep", describeRequirement},
-    {"interval", false, false, "what is guaranteed: how tight, and by what means", describeInterval},
-    {"stochastic", false, false, "what is probable: the samples", describeStochastic},
-    {"distribution", false, false, "bounds of the outputs' distribution functions", describeDistribution},
-    {"sensitivity", false, false, "derivatives by the uncertain quantities", describeSensitivity},
-    {"fuzzy", false, false, "what is possible: the alpha-cuts", describeFuzzy},
-    {"limits", false, false, "what a run may spend", describeLimits},
-};
-
 class KeyList final : public Settings {
  public:
   void any(const Key& key) override { keys.push_back(key); }
@@ -272,12 +250,29 @@ class KeyList final : public Settings {
 
 }  // namespace
 
-std::span<const StudySection> studySections() { return sections; }
+std::vector<StudySection> studySections(const Study& study) {
+  std::vector<StudySection> sections{
+      {"study", false, true, "what is asked of the mechanism, and when", describeStudy},
+      {"uncertain", true, false, "a number of the mechanism, or several, that is not known exactly", describeUncertain},
+      {"dependence", true, false, "how some of the uncertain quantities depend on each other", describeDependence},
+      {"output", true, true, "what is wanted of the motion", describeOutput},
+      {"requirement", true, false, "what the motion is to keep", describeRequirement},
+      {"interval", false, false, "what is guaranteed: how tight, and by what means", describeInterval},
+      {"stochastic", false, false, "what is probable: the samples", describeStochastic},
+      {"distribution", false, false, "bounds of the outputs' distribution functions", describeDistribution}};
+  for (std::size_t i = 0; i < study.analyses.size(); ++i)
+    sections.push_back({std::string(study.analyses[i]->section()), false, false,
+                        std::string(study.analyses[i]->meaning()),
+                        [i](Settings& s, Study& own) { own.analyses[i]->describe(s); }});
+  sections.insert(sections.end(), {{"fuzzy", false, false, "what is possible: the alpha-cuts", describeFuzzy},
+                                   {"limits", false, false, "what a run may spend", describeLimits}});
+  return sections;
+}
 
-const StudySection& studySection(std::string_view name) {
-  const auto found = std::ranges::find(sections, name, [](const StudySection& s) { return std::string_view(s.name); });
-  if (found == std::end(sections)) throw std::logic_error("study files have no such section: " + std::string(name));
-  return *found;
+StudySection studySection(const Study& study, std::string_view name) {
+  for (StudySection& section : studySections(study))
+    if (section.name == name) return std::move(section);
+  throw std::logic_error("study files have no such section: " + std::string(name));
 }
 
 std::vector<std::string> keysOf(const std::function<void(Settings&)>& describe) {
@@ -291,7 +286,7 @@ std::vector<std::string> keysOf(const std::function<void(Settings&)>& describe) 
 std::string guideTo(std::string_view section, const std::string& prefix) {
   KeyList list;
   Study study;
-  studySection(section).describe(list, study);
+  studySection(study, section).describe(list, study);
   std::string rows;
   for (const Key& key : list.keys)
     rows += fmt::format("| `{}{}` | {} |{}|\n", prefix, key.name, key.meaning,

@@ -9,7 +9,6 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,18 +76,18 @@ class Settings {
 };
 
 struct StudySection {
-  const char* name;  ///< "interval"
+  std::string name;  ///< "interval"
   bool isList;       ///< [[output]]
   bool isRequired;
-  const char* meaning;
-  void (*describe)(Settings& settings, Study& study);
+  std::string meaning;
+  std::function<void(Settings& settings, Study& study)> describe;
 };
 
-/// All but the mechanism, in the order in which a file mostly has them.
-std::span<const StudySection> studySections();
+/// All but the mechanism, in the order in which a file mostly has them, those of the study's analyses among them.
+std::vector<StudySection> studySections(const Study& study);
 
 /// That of this name, which there is.
-const StudySection& studySection(std::string_view name);
+StudySection studySection(const Study& study, std::string_view name);
 
 /// The names of keys.
 std::vector<std::string> keysOf(const std::function<void(Settings&)>& describe);

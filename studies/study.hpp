@@ -18,6 +18,7 @@
 #include "analyses/uncertainty.hpp"
 #include "mechanics/description/mechanism.hpp"
 #include "mechanics/element_types.hpp"
+#include "studies/analysis.hpp"
 #include "studies/demand.hpp"
 #include "studies/named_texts.hpp"
 #include "studies/results/origin.hpp"
@@ -116,7 +117,7 @@ struct Study {
   std::vector<WantedOutput> outputs;  ///< those of the requirements behind all others
   std::vector<Requirement> requirements;
   DistributionPlan distribution;
-  bool derivatives = false;  ///< whether derivatives of outputs by the uncertain quantities are enclosed
+  std::vector<Boxed<FurtherAnalysis>> analyses = made(analysisTypes());  ///< that it may ask for besides
   FlowOptions flow;          ///< without jobs, progress and cancelled, which belong to a run
   EnsembleOptions ensemble;  ///< likewise
   double storage = 4e6;      ///< bytes that the samples' values and motions may take in the results
@@ -159,10 +160,11 @@ struct FilesAtHand {
 };
 
 /// The same for text at hand; `name` is what messages call the file, and where paths of other files begin; with
-/// `files`, none of them is looked for. Distributions and memberships are of `shapes`, to which own ones may be added.
+/// `files`, none of them is looked for. Distributions, memberships and analyses are of these, to which own ones may be
+/// added.
 Study readStudyText(const std::string& text, const std::string& name,
                     const std::vector<Described>& types = elementTypes(), const std::optional<FilesAtHand>& files = {},
-                    const ShapeTypes& shapes = {});
+                    const ShapeTypes& shapes = {}, const std::vector<AnalysisType>& analyses = analysisTypes());
 
 /// The mechanism of a study alone, by which a study may begin: of the rest, no more is asked than that it is TOML.
 Mechanism readMechanismText(const std::string& text, const std::string& name,

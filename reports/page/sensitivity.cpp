@@ -18,6 +18,7 @@
 #include "reports/page/table.hpp"
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
+#include "studies/analyses/derivatives.hpp"
 #include "studies/told.hpp"
 
 namespace gamut {
@@ -139,7 +140,7 @@ Answered shares(const Results& results, std::size_t output, const Course& course
 /// Drawn times half the width of the quantity's interval, so that all are in the output's unit: by the mean value
 /// theorem the output changes by no more where the quantity alone moves from the middle of its interval to an end.
 Answered derivatives(const Results& results, std::size_t output) {
-  const DerivativeResult& d = results.derivatives;
+  const auto& d = results.of<DerivativeResult>();
   Answered answer{.kind = "derivative",
                   .head = "derivative",
                   .axis = headingOf("change", results.outputs[output].unit),
@@ -402,7 +403,7 @@ std::vector<Answered> answersOf(const Results& results, std::size_t output) {
 /// What the figures of these kinds say; the first of them is said to everybody.
 std::string hintsOf(const std::vector<std::string>& kinds, const Results& results) {
   const SensitivityResult& s = results.sensitivity;
-  const DerivativeResult& d = results.derivatives;
+  const auto& d = results.of<DerivativeResult>();
   struct Meaning {
     std::string kind, text;
   };

@@ -74,7 +74,7 @@ class SettingsReader final : public Settings {
 }  // namespace
 
 TomlSection readSettings(const TomlSource& source, const toml::table& table, std::string_view name, Study& study) {
-  const StudySection& words = studySection(name);
+  const StudySection words = studySection(study, name);
   TomlSection section(source, table, words.name, keysOf([&](Settings& settings) { words.describe(settings, study); }));
   SettingsReader reader(section, study.analysis != Study::Analysis::kinematics);
   words.describe(reader, study);

@@ -42,9 +42,12 @@ class StudyReader {
     study_.file = name;
   }
 
-  Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files, const ShapeTypes& shapes) {
+  Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files, const ShapeTypes& shapes,
+             const std::vector<AnalysisType>& analyses) {
+    study_.analyses = made(analyses);
+    const std::vector<StudySection> sections = studySections(study_);
     std::vector<std::string> names;
-    for (const StudySection& section : studySections()) names.emplace_back(section.name);
+    for (const StudySection& section : sections) names.emplace_back(section.name);
     names.insert(names.begin() + 1, "mechanism");
     const TomlSection file(source_, source_.root(), "", std::move(names));
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
@@ -72,11 +75,11 @@ class StudyReader {
     checkSomethingMoves(*file.find("mechanism"));
     notePlaces(*file.find("mechanism"));
     study_.ensemble.transformation = Transformation::extended;
-    for (const StudySection& each : studySections())  // those that were read before say the same again
+    for (const StudySection& each : sections)  // those that were read before say the same again
       if (const toml::node* node = file.find(each.name); node != nullptr && !each.isList)
         readSettings(source_, source_.asTable(*node, each.name), each.name, study_);
     checkPlan(file.find("stochastic"));
-    checkDerivatives(file.find("sensitivity"));
+    checkAnalyses(file);
     checkGeneralMethod(file.find("fuzzy"));
     if (const toml::node* node = file.find("limits")) checkLimits(*node->as_table());
     return std::move(study_);
@@ -381,10 +384,13 @@ class StudyReader {
     }
   }
 
-  void checkDerivatives(const toml::node* sensitivity) const {
-    if (study_.derivatives && study_.analysis != Study::Analysis::dynamics)
-      source_.fail(*sensitivity->as_table()->get("derivatives"), "derivatives are enclosed in dynamics alone",
-                   "no such key");
+  void checkAnalyses(const TomlSection& file) const {
+    for (const Boxed<FurtherAnalysis>& analysis : study_.analyses)
+      if (const auto refusal = analysis->refusal(study_)) {
+        const toml::node* section = file.find(analysis->section());
+        const toml::node* key = section == nullptr ? nullptr : section->as_table()->get(refusal->key);
+        source_.fail(key == nullptr ? source_.root() : *key, refusal->problem, refusal->expected);
+      }
   }
 
   void readDistribution(const toml::table& table) {
@@ -465,8 +471,9 @@ class StudyReader {
 }  // namespace
 
 Study readStudyText(const std::string& text, const std::string& name, const std::vector<Described>& types,
-                    const std::optional<FilesAtHand>& files, const ShapeTypes& shapes) {
-  return StudyReader(text, name).read(types, files, shapes);
+                    const std::optional<FilesAtHand>& files, const ShapeTypes& shapes,
+                    const std::vector<AnalysisType>& analyses) {
+  return StudyReader(text, name).read(types, files, shapes, analyses);
 }
 
 Mechanism readMechanismText(const std::string& text, const std::string& name, const std::vector<Described>& types) {

@@ -10,7 +10,9 @@ namespace {
 
 class ContentReader {
  public:
-  explicit ContentReader(const Hdf5Reader& root) : root_(root) {}
+  ContentReader(const Hdf5Reader& root, const std::vector<Boxed<FurtherPart>>& further) : root_(root) {
+    results_.further = further;
+  }
 
   Results read() {
     for (const Group& group : describe(results_)) {
@@ -196,6 +198,8 @@ class ContentReader {
 
 }  // namespace
 
-Results readContent(const Hdf5Reader& root) { return ContentReader(root).read(); }
+Results readContent(const Hdf5Reader& root, const std::vector<Boxed<FurtherPart>>& further) {
+  return ContentReader(root, further).read();
+}
 
 }  // namespace gamut

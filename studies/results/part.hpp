@@ -1,11 +1,13 @@
 // What every analysis finds: how it ended, and how its part of the results is called and described.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "studies/results/boxed.hpp"
 #include "studies/results/fields.hpp"
 
 namespace gamut {
@@ -62,5 +64,25 @@ struct Answer : TimedPart {
  protected:
   ~Answer() = default;
 };
+
+/// What an analysis beside the answers finds (studies/analysis.hpp).
+struct FurtherPart : TimedPart {
+  virtual ~FurtherPart() = default;
+  virtual std::unique_ptr<FurtherPart> copy() const = 0;
+  /// Its key in JSON.
+  virtual std::string_view key() const = 0;
+  /// What is done to what the title names: "enclosed".
+  virtual std::string_view verb() const = 0;
+  /// "derivatives were not enclosed to the end"; empty unless it was stopped.
+  std::string unfinished() const;
+
+ protected:
+  FurtherPart() = default;
+  FurtherPart(const FurtherPart&) = default;
+  FurtherPart& operator=(const FurtherPart&) = default;
+};
+
+/// An empty one of each analysis.
+std::vector<Boxed<FurtherPart>> furtherParts();
 
 }  // namespace gamut

@@ -96,20 +96,6 @@ std::vector<Field> fieldsOf(SensitivityResult& s) {
         {when, output, quantity}}});
 }
 
-std::vector<Field> fieldsOf(DerivativeResult& d) {
-  using namespace dimension;
-  constexpr std::string_view when = "/derivatives/time";
-  return d.fieldsAnd(
-      {{"time", &d.time, unit::second, "some output times", {when}},
-       {"lower",
-        &d.lower,
-        unit::none,
-        "proved bound of the output's derivative by the quantity, for all values in the intervals, in the output's "
-        "unit by the quantity's; NaN by what varies in time",
-        {when, output, quantity}},
-       {"upper", &d.upper, unit::none, "upper bound", {when, output, quantity}}});
-}
-
 }  // namespace
 
 std::string DistributionResult::amount() const {
@@ -125,16 +111,6 @@ void SensitivityResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/sensitivity", "whose doing the outputs' variance is, proved", *this, fieldsOf));
   groups.back().makesSense = [this](std::size_t) {
     return areShares(firstLower, firstUpper) && areShares(totalLower, totalUpper) && areShares(pinched);
-  };
-}
-
-void DerivativeResult::describe(std::vector<Group>& groups) {
-  groups.push_back(
-      groupOf("/derivatives", "how outputs change with the uncertain quantities, proved", *this, fieldsOf));
-  groups.back().makesSense = [this](std::size_t) {
-    for (std::size_t i = 0; i < lower.size(); ++i)
-      if (lower[i] > upper[i]) return false;
-    return true;
   };
 }
 

@@ -49,14 +49,4 @@ struct SensitivityResult final : Part {
   void describe(std::vector<Group>& groups) override;
 };
 
-/// Enclosures of the derivatives of outputs by uncertain quantities, over all values of these.
-struct DerivativeResult final : TimedPart {
-  std::vector<double> time;          ///< s: some output times, up to `reached`
-  std::vector<double> lower, upper;  ///< [time][output][quantity], in the output's unit by the quantity's; NaN by what
-                                     ///< varies in time
-
-  std::string title() const override { return "derivatives"; }
-  void describe(std::vector<Group>& groups) override;
-};
-
 }  // namespace gamut

@@ -8,6 +8,22 @@
 
 namespace gamut {
 
+std::vector<Part*> Results::parts() {
+  std::vector<Part*> parts{&interval, &stochastic, &fuzzy, &comparison, &distribution, &sensitivity};
+  for (Boxed<FurtherPart>& part : further) parts.push_back(&*part);
+  parts.insert(parts.end(), {&surrogate, &machine});
+  return parts;
+}
+
+std::vector<const Part*> Results::parts() const {
+  const std::vector<Part*> parts = const_cast<Results&>(*this).parts();
+  return {parts.begin(), parts.end()};
+}
+
+std::string FurtherPart::unfinished() const {
+  return stopped.empty() ? "" : fmt::format("{} were not {} to the end", title(), verb());
+}
+
 std::vector<Group> describe(Results& results) {
   std::vector<Group> groups;
   describe(static_cast<Origin&>(results), groups);
@@ -56,6 +72,12 @@ std::span<const MarginInfo> marginsOf(const Results& results, const RequirementR
 }
 
 bool isMargin(const Results& results, std::size_t output) { return requirementOf(results, output) != nullptr; }
+
+std::string unfinished(const Results& results) {
+  for (const Boxed<FurtherPart>& part : results.further)
+    if (std::string text = part->unfinished(); !text.empty()) return text;
+  return {};
+}
 
 double reachedTime(const Results& results) {
   double reached = results.horizon;

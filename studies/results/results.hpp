@@ -2,8 +2,8 @@
 // The report and the verdict are computed from this alone. Each part is described in a file of its own.
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,7 +23,6 @@ namespace gamut {
 /// Lower and upper bounds of every output at every output time.
 using Bounds = Envelope;
 
-/// An analysis has its member here, and its row in parts().
 struct Results : Origin {
   IntervalResult interval;
   StochasticResult stochastic;
@@ -33,21 +32,29 @@ struct Results : Origin {
   std::vector<MarginInfo> margins;  ///< of all of them, one after the other
   DistributionResult distribution;
   SensitivityResult sensitivity;
-  DerivativeResult derivatives;
+  std::vector<Boxed<FurtherPart>> further = furtherParts();  ///< one each; of what nobody else knows the type of
   SurrogateResult surrogate;
   MachineResult machine;
 
   /// What analyses found, in the order of the file.
-  std::array<Part*, 9> parts() {
-    return {&interval,    &stochastic,  &fuzzy,     &comparison, &distribution,
-            &sensitivity, &derivatives, &surrogate, &machine};
-  }
-  std::array<const Part*, 9> parts() const {
-    std::array<const Part*, 9> parts{};
-    std::ranges::copy(const_cast<Results&>(*this).parts(), parts.begin());
-    return parts;
-  }
+  std::vector<Part*> parts();
+  std::vector<const Part*> parts() const;
   std::array<const Answer*, 3> answers() const { return {&interval, &stochastic, &fuzzy}; }
+
+  /// Of the further parts the one of this type; an empty one where there is none.
+  template <class P>
+  const P& of() const {
+    static const P none;
+    for (const Boxed<FurtherPart>& part : further)
+      if (const auto* found = dynamic_cast<const P*>(&*part)) return *found;
+    return none;
+  }
+  template <class P>
+  P& of() {
+    for (Boxed<FurtherPart>& part : further)
+      if (auto* found = dynamic_cast<P*>(&*part)) return *found;
+    return static_cast<P&>(*further.emplace_back(std::make_unique<P>()));
+  }
 };
 
 /// The requirement whose margin an output is; null of others.
@@ -63,6 +70,9 @@ const std::vector<Group> describe(const Results& results);
 
 /// The paths of the fields in which two results differ, in number of records, shape or a single bit.
 std::vector<std::string> differences(const Results& one, const Results& other);
+
+/// What a further part says that was stopped, the first one; empty if none was.
+std::string unfinished(const Results& results);
 
 /// The time up to which every analysis that was asked for got (s).
 double reachedTime(const Results& results);

@@ -20,11 +20,11 @@ namespace {
 /// Reads a file's content in a child process: a file with a right seal is what some program wrote, not what gamut run
 /// wrote, and HDF5 crashes or hangs at some. The child may need the content's size once more as it is and unpacked,
 /// 1100 times as large at most, and reads 5 MB/s at least. Throws Hdf5Error.
-Results readApart(const std::string& content) {
+Results readApart(const std::string& content, const std::vector<Boxed<FurtherPart>>& further) {
   const auto read = [&] {
     Hdf5Transcript transcript;
     try {
-      readContent(Hdf5Reader(content, transcript));
+      readContent(Hdf5Reader(content, transcript), further);
     } catch (const Hdf5Error&) {  // the transcript ends with it
     }
     return transcript.bytes();
@@ -33,7 +33,7 @@ Results readApart(const std::string& content) {
                                                       static_cast<unsigned>(10 + content.size() / 5000000));
   if (!transcript) throw Hdf5Error("the file");
   Hdf5Transcript told(*std::move(transcript));
-  return readContent(Hdf5Reader(told));
+  return readContent(Hdf5Reader(told), further);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ void writeResults(const Results& results, const std::string& path) {
   writeResults(results, file);
 }
 
-Results readResults(const std::string& path) {
+Results readResults(const std::string& path, const std::vector<Boxed<FurtherPart>>& further) {
   const Hdf5Silence silence;  // the child's too
   if (const std::string fault = whyUnreadable(path); !fault.empty())
     throw ResultsFileError(fmt::format("{}: {}; expected a results file written by gamut run", path, fault));
@@ -67,7 +67,7 @@ Results readResults(const std::string& path) {
     throw ResultsFileError(fmt::format("{}: {}", path, refused.what()));
   }
   try {
-    return readApart(content);
+    return readApart(content, further);
   } catch (const Hdf5Error& damaged) {
     throw ResultsFileError(
         fmt::format("{}: damaged: {} cannot be read; expected the file as gamut run wrote it", path, damaged.what()));

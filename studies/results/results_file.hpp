@@ -23,8 +23,9 @@ void writeResults(const Results& results, const std::string& path);
 
 /// Reads what writeResults wrote, every number and word alike (control characters in words as escapes); a file that
 /// differs in one byte is refused. Throws ResultsFileError. What the HDF5 library cannot survive ends a child process:
-/// only for a process without other threads.
-Results readResults(const std::string& path);
+/// only for a process without other threads. Of analyses beside the answers those that have a part among `further` are
+/// read.
+Results readResults(const std::string& path, const std::vector<Boxed<FurtherPart>>& further = furtherParts());
 
 /// Of the library that writes and reads them: "1.10.8".
 std::string hdf5Version();

@@ -14,7 +14,8 @@ namespace {
 /// What was proved may be less than could be, if the run was stopped.
 bool isProvedInPart(const Results& results) {
   return !results.interval.why.empty() || !results.interval.shortfall.empty() || !results.fuzzy.why.empty() ||
-         !results.distribution.stopped.empty() || !results.derivatives.stopped.empty() ||
+         !results.distribution.stopped.empty() ||
+         std::ranges::any_of(results.further, [](const auto& part) { return !part->stopped.empty(); }) ||
          std::ranges::any_of(results.requirements,
                              [](const RequirementResult& r) { return r.word == Decision::open && !r.why.empty(); });
 }

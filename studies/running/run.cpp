@@ -50,6 +50,8 @@ std::string dependenceText(const Study& study) {
 void describeOrigin(Run& run) {
   const Study& study = run.study;
   Origin& origin = run.results;
+  run.results.further.clear();
+  for (const Boxed<FurtherAnalysis>& analysis : study.analyses) run.results.further.emplace_back(analysis->part());
   origin.studyText = study.text;
   origin.robotText = study.robot;
   origin.tablesText = inOneText(study.tables);

@@ -89,7 +89,7 @@ struct Run {
   std::optional<EnsembleRun> ensemble;   ///< there from `takeFirstSamples` on, unless it found no room
 };
 
-// An analysis has its unit, declared here and in the list below, behind what it needs.
+// Units, in the list below behind what they need. An analysis of its own files (studies/analysis.hpp) needs none.
 
 /// The machine's parts and its nominal motion, for the picture; what is seen of it is known from then on.
 void lookAtMachine(Run& run);
@@ -117,17 +117,17 @@ void refuteRequirements(Run& run);
 /// How probable values of the outputs are, and whose doing their variance is; then the samples' shares beside that.
 void boundProbabilities(Run& run);
 void compareShares(Run& run);
-/// How outputs change with the uncertain quantities, where that is asked for.
-void encloseDerivatives(Run& run);
+/// Analyses of their own files, where they are asked for.
+void findFurther(Run& run);
 /// A few of them, for the picture.
 void showSamples(Run& run);
 
 /// All units, in the order in which they run.
-inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,      takeFirstSamples,
-                                          enclose,           guarantee,          findPossibilities,
-                                          takeOtherSamples,  countRequirements,  estimateRequirements,
-                                          seekAdvice,        checkRequirements,  boundProbabilities,
-                                          compareShares,     encloseDerivatives, noteStop,
+inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,     takeFirstSamples,
+                                          enclose,           guarantee,         findPossibilities,
+                                          takeOtherSamples,  countRequirements, estimateRequirements,
+                                          seekAdvice,        checkRequirements, boundProbabilities,
+                                          compareShares,     findFurther,       noteStop,
                                           compareAnswers,    showSamples};
 
 /// Those that samples ask for, where all else is there.

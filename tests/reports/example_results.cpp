@@ -1,5 +1,6 @@
 // A damped swing with an uncertain amplitude: centre(t) +- width(t); each answer takes its share of the width.
 #include "tests/reports/example_results.hpp"
+#include "studies/analyses/derivatives.hpp"
 
 #include <cmath>
 #include <string>
@@ -182,7 +183,7 @@ Results sensitive() {
     }
   s.convergence = {true, {1024, 2048, 4096}, {0.7, 0.8, 0.8, 0.9, 0.95, 0.99}, {0.04, 0.05, 0.02, 0.03, 0.01, 0.02}};
   SensitivityResult& sensitivity = results.sensitivity;
-  DerivativeResult& derivatives = results.derivatives;
+  DerivativeResult& derivatives = results.of<DerivativeResult>();
   InfluenceResult& influence = results.fuzzy.influence;
   sensitivity.present = derivatives.present = influence.present = true;
   sensitivity.samples = 8192;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reports/report.hpp"
+#include "studies/analyses/derivatives.hpp"
 #include "tests/reports/example_results.hpp"
 #include "tests/reports/page_text.hpp"
 
@@ -73,7 +74,7 @@ TEST(SensitivitySection, DrawsDerivativesInTheOutputsUnit) {
 TEST(SensitivitySection, ShowsWhatIsKnownWhereTheOthersAreNot) {
   Results results = example::sensitive();
   results.sensitivity = {};
-  results.derivatives = {};
+  results.of<DerivativeResult>() = {};
   const std::string text = sensitivities(results);
   EXPECT_EQ(count(text, "<figure class=\"kept influence\">"), 2u);
   EXPECT_THAT(text, AllOf(HasSubstr("<p class=\"hint\">Measure of influence"), Not(HasSubstr("Sobol"))));
@@ -145,8 +146,8 @@ TEST(SensitivitySection, RoundsProvedSharesOutward) {
 /// Per degree a derivative is less than per radian; what is drawn, times half the interval, is the same.
 TEST(SensitivitySection, TellsDerivativesPerUnitThatTheStudyStates) {
   Results results = example::sensitive();
-  results.derivatives.lower.assign(results.derivatives.lower.size(), 180);
-  results.derivatives.upper.assign(results.derivatives.upper.size(), 270);
+  results.of<DerivativeResult>().lower.assign(results.of<DerivativeResult>().lower.size(), 180);
+  results.of<DerivativeResult>().upper.assign(results.of<DerivativeResult>().upper.size(), 270);
   const std::string si = sensitivities(results);
   EXPECT_THAT(si, HasSubstr("180 to 270 rad per rad"));
   results.uncertain[0].told = "deg";
@@ -170,7 +171,7 @@ TEST(SensitivitySection, LeavesOutWhatSaysNothing) {
   SensitivityResult& s = results.sensitivity;
   for (std::vector<double>* numbers :
        {&s.firstLower, &s.firstUpper, &s.totalLower, &s.totalUpper, &s.firstSampled, &s.firstError, &s.totalSampled,
-        &s.totalError, &s.pinched, &results.derivatives.lower, &results.derivatives.upper,
+        &s.totalError, &s.pinched, &results.of<DerivativeResult>().lower, &results.of<DerivativeResult>().upper,
         &results.fuzzy.influence.share})
     numbers->resize(numbers->size() / 2);
   const std::string text = sensitivities(results);

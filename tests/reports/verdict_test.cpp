@@ -14,6 +14,7 @@
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
 #include "reports/verdict.hpp"
+#include "studies/analyses/derivatives.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/words.hpp"
 #include "tests/reports/example_results.hpp"
@@ -433,11 +434,11 @@ TEST(Verdict, OfARunThatEndedWhileItBoundedProbabilitiesIsIncomplete) {
 
 TEST(Verdict, OfARunThatEndedWhileItEnclosedDerivativesIsIncomplete) {
   Results results = example::pendulum();
-  results.derivatives.present = true;
-  results.derivatives.why =
+  results.of<DerivativeResult>().present = true;
+  results.of<DerivativeResult>().why =
       "the work that limits.derivatives allows is done";  // their own: that is no early end of the run
   EXPECT_EQ(judge(results).word, Agreement::inside);
-  results.derivatives.why = results.derivatives.stopped = "the run was interrupted";
+  results.of<DerivativeResult>().why = results.of<DerivativeResult>().stopped = "the run was interrupted";
   results.comparison.verdict = Agreement::incomplete;
   const Verdict verdict = judge(results);
   EXPECT_EQ(verdict.word, Agreement::incomplete);

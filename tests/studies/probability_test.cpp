@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analyses/samples/ensemble.hpp"
+#include "studies/analyses/derivatives.hpp"
 #include "studies/machine.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/running/run.hpp"
@@ -174,8 +175,8 @@ TEST(Probabilities, AreKeptInTheFile) {
 }
 
 TEST(Derivatives, AreAskedForInDynamicsAlone) {
-  EXPECT_FALSE(asked("").derivatives);
-  EXPECT_TRUE(asked("[sensitivity]\nderivatives = true\n").derivatives);
+  EXPECT_FALSE(asked("").analyses.front()->isAsked());
+  EXPECT_TRUE(asked("[sensitivity]\nderivatives = true\n").analyses.front()->isAsked());
   EXPECT_THAT([] { asked("[sensitivity]\nderivative = true\n"); },
               ThrowsMessage<StudyError>(HasSubstr("expected 'derivatives'?")));
 }
@@ -185,7 +186,7 @@ TEST(Derivatives, AreAskedForInDynamicsAlone) {
 TEST(Derivatives, HoldWhatOutputsChangeBy) {
   const Study study = asked("[sensitivity]\nderivatives = true\n[distribution]\ntimes = 0\n");
   const Results results = run(study);
-  const DerivativeResult& derivatives = results.derivatives;
+  const DerivativeResult& derivatives = results.of<DerivativeResult>();
   ASSERT_TRUE(derivatives.present);
   EXPECT_EQ(derivatives.why, "");
   EXPECT_EQ(derivatives.reached, 0.5);

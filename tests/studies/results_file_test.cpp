@@ -1,5 +1,6 @@
 // What is written is what is read; a file explains itself; a write that fails or is killed leaves the old file.
 #include "studies/results/results_file.hpp"
+#include "studies/analyses/derivatives.hpp"
 
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -71,7 +72,7 @@ TEST_F(ResultsFile, KeepsAbsentPartsAbsent) {
   results.requirements.clear();
   results.distribution = {};
   results.sensitivity = {};
-  results.derivatives = {};
+  results.of<DerivativeResult>() = {};
   results.surrogate = {};
   writeResults(results, path_);
   const Results found = readResults(path_);
@@ -109,7 +110,7 @@ TEST_F(ResultsFile, CompressesLargeGrids) {
   results.comparison = {};
   results.distribution = {};
   results.sensitivity = {};
-  results.derivatives = {};
+  results.of<DerivativeResult>() = {};
   results.surrogate = {};
   results.requirements = {};
   results.margins = {};

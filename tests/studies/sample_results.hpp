@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "studies/analyses/derivatives.hpp"
 #include "studies/results/results.hpp"
 
 namespace gamut {
@@ -179,7 +180,7 @@ inline Results sampleResults() {
   s.samples = 256;
   s.firstSampled = s.totalSampled = {0.625, nan, nan, 0.5};
   s.firstError = s.totalError = {0.03125, nan, nan, 0.25};
-  DerivativeResult& derivatives = r.derivatives;
+  DerivativeResult& derivatives = r.of<DerivativeResult>();
   derivatives.present = true;
   derivatives.reached = 0.01;
   derivatives.why = derivatives.stopped = "the run was interrupted";

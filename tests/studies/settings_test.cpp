@@ -30,8 +30,8 @@ std::string textIn(const std::string& path) {
 
 TEST(StudySections, AreWhatTheGuideShows) {
   const std::string guide = textIn(GAMUT_SOURCE_DIR "/docs/study-file.md");
-  for (const StudySection& section : studySections()) {
-    const std::string name = section.name;
+  for (const StudySection& section : studySections(Study())) {
+    const std::string& name = section.name;
     const bool isOfSeveral = !section.isList && !section.isRequired && name != "limits";  // in one table
     const std::string rows = guideTo(name, isOfSeveral ? name + "." : "");
     EXPECT_NE(guide.find(rows), std::string::npos) << "docs/study-file.md needs\n" << rows;

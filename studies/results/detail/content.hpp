@@ -10,6 +10,6 @@ namespace gamut {
 void writeContent(hid_t file, const Results& results);
 
 /// Throws Hdf5Error naming what is missing, of another kind or shape than described, or makes no sense.
-Results readContent(const Hdf5Reader& root);
+Results readContent(const Hdf5Reader& root, const std::vector<Boxed<FurtherPart>>& further);
 
 }  // namespace gamut

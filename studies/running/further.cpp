@@ -1,0 +1,27 @@
+// Analyses of their own files.
+#include <new>
+
+#include "studies/running/units.hpp"
+
+namespace gamut {
+
+void findFurther(Run& run) {
+  for (std::size_t i = 0; i < run.study.analyses.size(); ++i) {
+    const FurtherAnalysis& analysis = *run.study.analyses[i];
+    if (!analysis.isAsked()) continue;
+    run.watch.begin(Watch::Stage::rest);
+    const double start = processCpuSeconds();
+    FurtherPart& part = *run.results.further[i];
+    part.present = true;
+    try {
+      analysis.find(run, part);
+    } catch (const std::bad_alloc&) {
+      run.watch.memoryFailed();
+      part.why = run.watch.why();
+    }
+    if (*run.watch.stop()) part.stopped = run.watch.why();
+    part.cpu = processCpuSeconds() - start;
+  }
+}
+
+}  // namespace gamut
