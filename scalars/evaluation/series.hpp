@@ -64,13 +64,16 @@ class Series {
   }
 
   S convolution(int a, int b, int i, int from, int to) {  // Σ_{j=from}^{to} a_j b_{i-j}
-    S sum(0.0);
-    for (int j = from; j <= to; ++j) sum = sum + at(a, j) * at(b, i - j);
+    S sum(0.0), term(0.0);
+    for (int j = from; j <= to; ++j) sum += (term = at(a, j)) *= at(b, i - j);  // in place: numbers may be long
     return sum;
   }
   S weighted(int a, int b, int i, int to) {  // Σ_{j=1}^{to} j a_j b_{i-j}
-    S sum(0.0);
-    for (int j = 1; j <= to; ++j) sum = sum + S(static_cast<double>(j)) * at(a, j) * at(b, i - j);
+    S sum(0.0), term(0.0);
+    for (int j = 1; j <= to; ++j) {
+      term = S(static_cast<double>(j));
+      sum += (term *= at(a, j)) *= at(b, i - j);
+    }
     return sum;
   }
 
