@@ -58,30 +58,6 @@ void takeCourses(Machine& machine) {
     if (program->outputs() > 0) *program = machine.alongCourses(*program);
 }
 
-/// y = g(p): outputs of the assembly at the configuration p (states, then free parameters).
-Program recordConfiguration(const Study& study, std::size_t states, int numbers) {
-  const std::vector<Expression> outputs = outputExpressions(study);
-  return record(0, numbers, static_cast<int>(outputs.size()), [&](auto, const auto&, const auto& p, auto& y) {
-    const std::span<const Recorded> values(p);
-    Assembly<Recorded> assembly(study.mechanism, freeParametersOf(study), values.subspan(states));
-    assembly.setMotion(values.first(states));
-    const std::vector<Recorded> found = recordOutputs(assembly, outputs);
-    for (std::size_t i = 0; i < found.size(); ++i) y[i] = found[i];
-  });
-}
-
-/// y = g(t, p) where everything is driven.
-Program recordGivenMotion(const Study& study, const std::vector<std::string>& parameters) {
-  const std::vector<Expression> outputs = outputExpressions(study);
-  return record(1, static_cast<int>(parameters.size()), static_cast<int>(outputs.size()),
-                [&](auto t, const auto&, const auto& p, auto& y) {
-                  Assembly<Recorded> assembly(study.mechanism, parameters, p);
-                  assembly.setState({}, t);
-                  const std::vector<Recorded> found = recordOutputs(assembly, outputs);
-                  for (std::size_t i = 0; i < found.size(); ++i) y[i] = found[i];
-                });
-}
-
 /// While it lives, requests fail that would take the process beyond so many bytes, before the machine has none left.
 class MemoryBound {
  public:
@@ -100,20 +76,20 @@ class MemoryBound {
 };
 
 void recordAnalysis(const Study& study, const std::vector<std::string>& parameters, Motion& motion) {
+  const std::vector<Expression> outputs = outputExpressions(study);
+  const auto outputsOf = [&](const Assembly<Recorded>& assembly) { return recordOutputs(assembly, outputs); };
   if (study.isMotionGiven()) {
     motion.f =
         record(1, static_cast<int>(parameters.size()), [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
-    motion.g = recordGivenMotion(study, parameters);
+    motion.g = recordedOf(study, outputs.size(), outputsOf);
   } else if (study.analysis != Study::Analysis::kinematics) {
     motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
     motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
-    motion.g = recordOutputs(study.mechanism, parameters, outputExpressions(study));
+    motion.g = recordOutputs(study.mechanism, parameters, outputs);
     motion.rests = restsOf(study.mechanism);
   } else {
-    const std::size_t states = study.mechanism.stateNames().size();
-    const int numbers = static_cast<int>(states + parameters.size());
-    motion.f = record(0, numbers, [](auto, const auto&, const auto&, auto&) {});
-    motion.g = recordConfiguration(study, states, numbers);
+    motion.g = recordedOf(study, outputs.size(), outputsOf);
+    motion.f = record(0, motion.g.parameters(), [](auto, const auto&, const auto&, auto&) {});
   }
 }
 
@@ -156,6 +132,25 @@ void takeLevels(Machine& machine) {
 }
 
 }  // namespace
+
+Program recordedOf(const Study& study, std::size_t values,
+                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what) {
+  const std::vector<std::string> parameters = freeParametersOf(study);
+  const std::size_t given = study.mechanism.stateNames().size();
+  const bool moves = study.analysis != Study::Analysis::kinematics;
+  const std::size_t states = study.isMotionGiven() ? 1 : moves ? given : 0;
+  const auto motion = [&](auto t, const auto& x, const auto& p, auto& y) {
+    const std::span<const Recorded> numbers(p);
+    Assembly<Recorded> assembly(study.mechanism, parameters, moves ? numbers : numbers.subspan(given));
+    if (study.isMotionGiven())
+      assembly.setState({}, t);
+    else
+      moves ? assembly.setMotion(x, t) : assembly.setMotion(numbers.first(given));
+    std::ranges::copy(what(assembly), y.begin());
+  };
+  return record(static_cast<int>(states), static_cast<int>(parameters.size() + (moves ? 0 : given)),
+                static_cast<int>(values), motion);
+}
 
 std::vector<Expression> outputExpressions(const Study& study) {
   std::vector<Expression> expressions;

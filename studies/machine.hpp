@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@
 #include "studies/study.hpp"
 
 namespace gamut {
+
+template <class S>
+class Assembly;
+class Recorded;
 
 /// An uncertain quantity that is constant.
 struct ConstantQuantity {
@@ -50,6 +55,10 @@ struct Machine {
 
 /// The programs of a study's mechanism, as Machine::equations; throws as Machine does.
 Motion recordedMotion(const Study& study);
+
+/// `what(assembly)`, so many values, at a state and time of a study's motion: takes what Machine::equations take.
+Program recordedOf(const Study& study, std::size_t values,
+                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what);
 
 /// What is looked at, each in its unit.
 std::vector<Expression> outputExpressions(const Study& study);

@@ -2,7 +2,7 @@
 #include "studies/running/seen.hpp"
 
 #include <algorithm>
-#include <span>
+#include <iterator>
 
 #include "mechanics/assembly.hpp"
 #include "scalars/recorded.hpp"
@@ -20,25 +20,6 @@ std::vector<std::size_t> seenTimes(std::size_t times, std::size_t points) {
   return seen;
 }
 
-/// `what(assembly)` at a state and time of the study's motion.
-template <class What>
-Program recordedOf(const Machine& machine, std::size_t values, const What& what) {
-  const Study& study = machine.study;
-  const bool moves = study.analysis != Study::Analysis::kinematics;
-  const int numbers = static_cast<int>(machine.box.size()), states = static_cast<int>(machine.states);
-  return record(moves ? states : 0, moves ? numbers - states : numbers, static_cast<int>(values),
-                [&](auto t, const auto& x, const auto& p, auto& y) {
-                  const std::span<const Recorded> given(p);
-                  Assembly<Recorded> assembly(study.mechanism, machine.freeParameters,
-                                              moves ? given : given.subspan(machine.states));
-                  if (study.isMotionGiven())
-                    assembly.setState({}, t);
-                  else
-                    moves ? assembly.setMotion(x, t) : assembly.setMotion(given.first(machine.states));
-                  std::ranges::copy(what(assembly), y.begin());
-                });
-}
-
 }  // namespace
 
 Seen whatIsSeen(const Machine& machine) {
@@ -54,9 +35,9 @@ Seen whatIsSeen(const Machine& machine) {
   for (const std::size_t i : seen.times) seen.at.push_back(study.times[i]);
   seen.isEnclosed = study.asksFor<IntervalResult>() && moving <= mostEnclosedPoints;
   using Moved = Assembly<Recorded>;
-  seen.positions = recordedOf(machine, 3 * points, [&](const Moved& moved) { return positionsOf(moved, skeleton); });
-  seen.velocities = recordedOf(machine, 3 * points, [&](const Moved& moved) { return velocitiesOf(moved, skeleton); });
-  seen.drawn = recordedOf(machine, 3 * (points + skeleton.axes.size()), [&](const Moved& moved) {
+  seen.positions = recordedOf(study, 3 * points, [&](const Moved& moved) { return positionsOf(moved, skeleton); });
+  seen.velocities = recordedOf(study, 3 * points, [&](const Moved& moved) { return velocitiesOf(moved, skeleton); });
+  seen.drawn = recordedOf(study, 3 * (points + skeleton.axes.size()), [&](const Moved& moved) {
     std::vector<Recorded> all = positionsOf(moved, skeleton);
     std::ranges::copy(axesOf(moved, skeleton), std::back_inserter(all));
     return all;
