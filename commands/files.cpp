@@ -19,7 +19,7 @@ StudyText readStudyFile(const std::string& path) {
   try {
     return {readIn(), name};
   } catch (const ReadError& error) {
-    throw StudyError(fmt::format("{}: cannot be read ({}); expected a study file (TOML)", name, error.what()));
+    throw StudyError(name, fmt::format("cannot be read ({})", error.what()), "a study file (TOML)");
   }
 }
 

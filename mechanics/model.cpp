@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "mechanics/assembly.hpp"
-#include "mechanics/description/unfit_part.hpp"
+#include "mechanics/description/refusal.hpp"
 #include "scalars/program/linear_form.hpp"
 #include "scalars/program/sides.hpp"
 #include "scalars/recorded.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mechanics/assembly.hpp"
-#include "mechanics/description/unfit_part.hpp"
+#include "mechanics/description/refusal.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/recorded.hpp"
 #include "studies/printable.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& place, std::string what, const std::string& expected) {
   std::ranges::replace(what, ';', ',');  // one line has one semicolon, in front of what was expected
-  throw StudyError(complaintAt(place, what, expected));
+  throw StudyError(place, what, expected);
 }
 
 /// Of a number in recorded equations: the quantities that are open have these values, all others are constant.

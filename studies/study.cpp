@@ -1,6 +1,16 @@
 #include "studies/study.hpp"
 
+#include <utility>
+
+#include "studies/printable.hpp"
+
 namespace gamut {
+
+StudyError::StudyError(std::string place, std::string problem, std::string expected)
+    : std::runtime_error(complaintAt(place, problem, expected)),
+      place_(std::move(place)),
+      problem_(std::move(problem)),
+      expected_(std::move(expected)) {}
 
 Expression WantedOutput::inUnit() const {
   const Amount one = oneOfUnit(unit);

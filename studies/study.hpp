@@ -29,7 +29,14 @@ namespace gamut {
 /// Something is wrong with a study file; what() is one line "file:line:column: what is wrong; what was expected".
 class StudyError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// `place`: of a file, "file:line:column".
+  StudyError(std::string place, std::string problem, std::string expected);
+  const std::string& place() const { return place_; }
+  const std::string& problem() const { return problem_; }
+  const std::string& expected() const { return expected_; }
+
+ private:
+  std::string place_, problem_, expected_;
 };
 
 /// An uncertain number of the mechanism: one of Mechanism::quantities().

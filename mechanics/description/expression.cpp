@@ -79,7 +79,7 @@ Expression cos(const Expression& a) { return Expression(a).append(Expression::Op
 namespace {
 
 [[noreturn]] void refuse(const std::string& what, int column, const std::string& expected) {
-  throw UnitError(fmt::format("{} at column {}; expected {}", what, column, expected));
+  throw UnitError(fmt::format("{} at column {}", what, column), expected);
 }
 
 /// As what is added to something: a 1 would be taken for the number.
@@ -201,7 +201,7 @@ void Expression::check(const DimensionOf& dimensionOf, const std::string& unit) 
                          return c.exact && (c.exact->hasUnit || c.exact->isRelative);
                        });
   if (!isPlain && !isAlike(found, gamut::dimensionOf(unit)))
-    throw UnitError(fmt::format("a quantity in {}; expected one in {}", unitOf(found), unit));
+    throw UnitError(fmt::format("a quantity in {}", unitOf(found)), fmt::format("one in {}", unit));
 }
 
 bool Expression::isSmooth() const {
@@ -323,10 +323,10 @@ std::optional<Expression::Affine> Expression::affineIn(const Expression& part) c
 Amount parseAmount(std::string_view text) {
   const Expression expression = Expression::parse(text, [](std::string_view) { return false; });
   if (!expression.isConstant())
-    throw UnitError(fmt::format("unknown unit '{}' in '{}'; expected {}", expression.names().front(), text,
-                                unitInsteadOf(expression.names().front())));
+    throw UnitError(fmt::format("unknown unit '{}' in '{}'", expression.names().front(), text),
+                    unitInsteadOf(expression.names().front()));
   if (const std::optional<Amount> amount = expression.amount()) return *amount;
-  throw UnitError(fmt::format("'{}' is no rational number times a power of pi; expected one that is", text));
+  throw UnitError(fmt::format("'{}' is no rational number times a power of pi", text), "one that is");
 }
 
 Amount oneOfUnit(std::string_view unit) {

@@ -32,7 +32,7 @@ class ExpressionParser {
 
   Expression read() {
     if (text_.size() > longest)
-      throw UnitError(fmt::format("a number of {} characters; expected at most {}", text_.size(), longest));
+      throw UnitError(fmt::format("a number of {} characters", text_.size()), fmt::format("at most {}", longest));
     skipBlanks();
     if (atEnd()) fail(fmt::format("'{}' holds no number", text_));
     readSum();
@@ -89,7 +89,7 @@ class ExpressionParser {
     return text_.substr(position_, end - position_);
   }
   [[noreturn]] void fail(const std::string& what, const std::string& expected = example) const {
-    throw UnitError(fmt::format("{} at column {}; expected {}", what, column(), expected));
+    throw UnitError(fmt::format("{} at column {}", what, column()), expected);
   }
   /// What exact arithmetic refuses is said with its place.
   template <class Action>
@@ -97,9 +97,7 @@ class ExpressionParser {
     try {
       return action();
     } catch (const UnitError& error) {
-      const std::string what = error.what();
-      const std::size_t end = what.find(';');
-      throw UnitError(fmt::format("{} at column {}{}", what.substr(0, end), column, what.substr(end)));
+      throw UnitError(fmt::format("{} at column {}", error.problem(), column), error.expected());
     }
   }
 
@@ -319,9 +317,9 @@ class ExpressionParser {
     const auto other = std::ranges::find(otherFunctions, word, &OtherFunction::first);
     const std::string nearest =
         other != std::end(otherFunctions) ? std::string(other->second) : nearestName(word, known);
-    throw UnitError(fmt::format("unknown function '{}' at column {}; expected {}one of: {}", word, at,
-                                nearest.empty() ? "" : fmt::format("'{}'? (", nearest), fmt::join(known, ", ")) +
-                    (nearest.empty() ? "" : ")"));
+    const std::string all = fmt::format("one of: {}", fmt::join(known, ", "));
+    throw UnitError(fmt::format("unknown function '{}' at column {}", word, at),
+                    nearest.empty() ? all : fmt::format("'{}'? ({})", nearest, all));
   }
 
   void readCall(const Function& function, int at) {

@@ -12,7 +12,7 @@
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/quantities.hpp"
-#include "mechanics/description/unfit_part.hpp"
+#include "mechanics/description/refusal.hpp"
 
 namespace gamut {
 namespace {
@@ -20,7 +20,9 @@ namespace {
 /// Stands for an element where its expressions are checked.
 constexpr const char* baseAccelerationName = "base_acceleration";
 
-[[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
+[[noreturn]] void refuse(const std::string& problem, const std::string& expected = "") {
+  throw Refusal(problem, expected);
+}
 
 /// Names of whole quantities, which parts of a mechanism must not have.
 bool isQuantity(const std::string& name) {
@@ -84,20 +86,20 @@ void Mechanism::addDerived(const std::string& name, const Expression& formula) {
   try {
     derived_.add({name, gamut::unitOf(dimensionOf(formula)), formula});
   } catch (const UnitError& error) {
-    throw WrongNumber(name, error.what());
+    throw WrongNumber(name, error.problem(), error.expected());
   }
 }
 
 void Mechanism::checkParameterName(const std::string& name) const {
   if (name.empty()) refuse("a parameter needs a name");
   if (knows(name) || initials_.find(name) != nullptr)
-    refuse("the quantity " + inQuotes(name) + " is defined twice; expected another name");
+    refuse("the quantity " + inQuotes(name) + " is defined twice", "another name");
   if (isReserved(name) || isQuantity(name) || name == "pi")
     refuse("a parameter cannot be named " + inQuotes(name) + ": that is a " +
-           (isQuantity(name) ? "quantity"
-            : name == "pi"   ? "number"
-                             : "unit") +
-           "; expected another name");
+               (isQuantity(name) ? "quantity"
+                : name == "pi"   ? "number"
+                                 : "unit"),
+           "another name");
 }
 
 std::vector<std::string> Mechanism::withoutUnit(const Expression& number) const {
@@ -131,9 +133,8 @@ std::unordered_set<std::string> Mechanism::needsOf(const Expression& number) con
 
 void Mechanism::checkNewName(const std::string& kind, const std::string& name) const {
   if (name.empty()) refuse("a " + kind + " needs a name");
-  if (names_.contains(name)) refuse("two elements are named " + inQuotes(name) + "; expected a name of its own");
-  if (isQuantity(name))
-    refuse("an element cannot be named " + inQuotes(name) + ": that is a quantity; expected another name");
+  if (names_.contains(name)) refuse("two elements are named " + inQuotes(name), "a name of its own");
+  if (isQuantity(name)) refuse("an element cannot be named " + inQuotes(name) + ": that is a quantity", "another name");
 }
 
 void Mechanism::checkFrame(const std::string& frame, const std::string& of) const {
@@ -145,12 +146,12 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
   checkFrame(from, of);
   if (to.empty()) refuse("the element " + inQuotes(of) + " needs the name of the frame that it moves");
   if (isFrame_.contains(to))
-    refuse("the frame " + inQuotes(to) + " is defined twice; expected a new frame for " + inQuotes(of) +
-           " (closed loops are not there yet: frames form a tree, which springs and bushings alone can close)");
+    refuse("the frame " + inQuotes(to) + " is defined twice",
+           "a new frame for " + inQuotes(of) +
+               " (closed loops are not there yet: frames form a tree, which springs and bushings alone can close)");
   if (unitOfMeasured(to + ".position.x") != nullptr)
-    refuse("the frame " + inQuotes(to) +
-           " has the name of an element whose position is measured; expected another name");
-  if (isQuantity(to)) refuse("a frame cannot be named " + inQuotes(to) + ": that is a quantity; expected another name");
+    refuse("the frame " + inQuotes(to) + " has the name of an element whose position is measured", "another name");
+  if (isQuantity(to)) refuse("a frame cannot be named " + inQuotes(to) + ": that is a quantity", "another name");
   frames_.push_back(to);
   isFrame_.insert(to);
 }
@@ -175,7 +176,7 @@ void Mechanism::checkNames(const Expression& number, const std::string& name) co
   for (const std::string& used : number.names()) {
     if (knows(used)) continue;
     if (used == "t" || unitOfMeasured(used) != nullptr)
-      throw WrongNumber(name, inQuotes(used) + " changes in motion; expected a formula of parameters alone");
+      throw WrongNumber(name, inQuotes(used) + " changes in motion", "a formula of parameters alone");
     const std::vector<std::string> known = parameterNames();
     throw UnknownName("parameter", used, known, remarkOn(used, name), name);
   }
@@ -208,7 +209,7 @@ Dimension Mechanism::check(const Expression& number, const std::string& name, co
                         name, unit);
     number.check(dimensionOfName, unit);
   } catch (const UnitError& error) {
-    throw WrongNumber(name, error.what());
+    throw WrongNumber(name, error.problem(), error.expected());
   }
   return {};
 }
@@ -216,10 +217,9 @@ Dimension Mechanism::check(const Expression& number, const std::string& name, co
 void Mechanism::addState(Named<State>& states, const std::string& name, const std::string& unit,
                          const Expression& initial) {
   State state{name, unit, initial};
-  if (unitOfMeasured(name) != nullptr)
-    refuse("the quantity " + inQuotes(name) + " is defined twice; expected another name");
+  if (unitOfMeasured(name) != nullptr) refuse("the quantity " + inQuotes(name) + " is defined twice", "another name");
   if (initial.isConstant()) {
-    if (knows(name)) refuse("the quantity " + inQuotes(name) + " is defined twice; expected another name");
+    if (knows(name)) refuse("the quantity " + inQuotes(name) + " is defined twice", "another name");
     check(initial, name, unit);
     const Interval value = initial.evaluate<Interval>([](const std::string&) { return Interval::entire(); });
     if (isEmpty(value) || !isBounded(value))
@@ -260,16 +260,17 @@ void Mechanism::addSignal(Signal signal, Expression& expression) {
 void Mechanism::drive(const std::string& coordinate, const std::string& by) {
   JointCoordinate* const driven = coordinates_.find(coordinate);
   if (driven->isDriven)
-    refuse("the joint " + inQuotes(coordinate) + " is driven twice, the second time by " + inQuotes(by) +
-           "; expected one drive, coupling or motion a joint");
+    refuse("the joint " + inQuotes(coordinate) + " is driven twice, the second time by " + inQuotes(by),
+           "one drive, coupling or motion a joint");
   if (const auto end = struck_.find(coordinate); end != struck_.end())
     refuse("the joint " + inQuotes(coordinate) + " is driven by " + inQuotes(by) + ", so that it cannot strike " +
-           inQuotes(end->second) + "; expected a joint that moves freely");
+               inQuotes(end->second),
+           "a joint that moves freely");
   for (const std::string& name : {driven->name, driven->rate}) {
     const NamedValue* initial = initials_.find(name);
     if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
-      refuse("the joint " + inQuotes(driven->element) + " has initial values, but is driven by " + inQuotes(by) +
-             "; expected no initial values: it starts where it is driven");
+      refuse("the joint " + inQuotes(driven->element) + " has initial values, but is driven by " + inQuotes(by),
+             "no initial values: it starts where it is driven");
   }
   initials_.erase(driven->name);
   initials_.erase(driven->rate);
@@ -287,12 +288,11 @@ class Mechanism::Checker final : public Fields {
   void frame(const Word& /*word*/, std::string& name) override { m_.checkFrame(name, element_); }
   void otherFrame(const Word& word, std::string& name, const std::string& other) override {
     frame(word, name);
-    if (name == other)
-      refuse("the element " + inQuotes(element_) + " joins a frame to itself; expected two different frames");
+    if (name == other) refuse("the element " + inQuotes(element_) + " joins a frame to itself", "two different frames");
   }
   void carriesMass(const FixedPoint& centre, const Expression& /*mass*/) override {
     if (m_.isFrame_.contains(element_))
-      refuse("the element " + inQuotes(element_) + " has the name of a frame; expected another name");
+      refuse("the element " + inQuotes(element_) + " has the name of a frame", "another name");
     m_.massFrames_.push_back(centre.frame);
   }
   void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {
@@ -321,8 +321,8 @@ class Mechanism::Checker final : public Fields {
       if (quaternion && std::ranges::all_of(*quaternion, [&](const Expression& component) {
             return isEqual(m_.rangeOf(component), Interval(0.0));
           }))
-        refuse("the quaternion of " + inQuotes(element_) +
-               " is zero, which is no orientation; expected four numbers of which one is not zero");
+        refuse("the quaternion of " + inQuotes(element_) + " is zero, which is no orientation",
+               "four numbers of which one is not zero");
     }
   }
   void number(const Word& word, Expression& number) override { m_.use(number, named(word), word.unit); }
@@ -351,7 +351,7 @@ class Mechanism::Checker final : public Fields {
   }
   std::string state(const Word& word, Expression& initial) override {
     if (isReserved(element_) || element_ == "pi" || isNumber(element_))
-      refuse("a state cannot be named " + inQuotes(element_) + ": that is a unit or a number; expected another name");
+      refuse("a state cannot be named " + inQuotes(element_) + ": that is a unit or a number", "another name");
     std::string unit = word.unit;
     if (unit.empty()) unit = gamut::unitOf(m_.dimensionOf(initial));
     m_.addState(m_.own_, element_, unit, initial);
@@ -367,23 +367,24 @@ class Mechanism::Checker final : public Fields {
   Coordinate followingCoordinate(const Word& word, std::string& name, const std::string& leader) override {
     found(name);
     if (name == leader)
-      refuse("the joint " + inQuotes(name) + " follows itself, as " + inQuotes(element_) +
-             " has it; expected another joint");
+      refuse("the joint " + inQuotes(name) + " follows itself, as " + inQuotes(element_) + " has it", "another joint");
     for (const Following& following : m_.followings_)
       if (following.leader == name)
         refuse("the joint " + inQuotes(name) + " is driven by " + inQuotes(element_) + " after " +
-               inQuotes(following.follower) + " follows it; expected its drive ahead of what follows it");
+                   inQuotes(following.follower) + " follows it",
+               "its drive ahead of what follows it");
     m_.followings_.push_back({name, leader});
     return drivenCoordinate(word, name);
   }
   Coordinate struckCoordinate(const Word& /*word*/, std::string& name, Start& start) override {
     const JointCoordinate& struck = found(name);
     if (struck.isDriven)
-      refuse("the joint " + inQuotes(name) + " is driven, so that it cannot strike " + inQuotes(element_) +
-             "; expected a joint that moves freely");
+      refuse("the joint " + inQuotes(name) + " is driven, so that it cannot strike " + inQuotes(element_),
+             "a joint that moves freely");
     if (!m_.struck_.emplace(name, element_).second)
       refuse("the joint " + inQuotes(name) + " has two rigid ends, " + inQuotes(m_.struck_.at(name)) + " and " +
-             inQuotes(element_) + "; expected an elastic one, `joint-stop`, in place of one of them");
+                 inQuotes(element_),
+             "an elastic one, `joint-stop`, in place of one of them");
     start.position = m_.positions_.find(struck.name)->initial;
     start.rate = m_.speeds_.find(struck.rate)->initial;
     start.isRising = m_.rangeOf(start.rate).upper() > 0;
@@ -391,9 +392,9 @@ class Mechanism::Checker final : public Fields {
   }
   void timeFunction(const Word& word, Expression& number) override {
     if (!number.isSmooth())
-      refuse(
-          "the " + word.key + " of " + inQuotes(element_) +
-          " has a kink or a jump (abs, sign, min, max, where), where its rate would jump; expected a smooth formula");
+      refuse("the " + word.key + " of " + inQuotes(element_) +
+                 " has a kink or a jump (abs, sign, min, max, where), where its rate would jump",
+             "a smooth formula");
     m_.addSignal({element_, named(word), word.unit, Reach::time, number}, number);
   }
   void table(const Word& /*file*/, const Word& /*column*/, Coordinate /*kind*/, TimeTable& table) override {
@@ -514,13 +515,12 @@ void Mechanism::checkSignal(const Signal& signal) const {
   };
   for (const std::string& used : signal.expression.names()) {
     if (signal.reach == Reach::motion && isSolved(used))
-      throw WrongNumber(signal.name, inQuotes(used) +
-                                         " follows from all forces, this one among them; expected a formula "
-                                         "of time, positions, velocities and own states");
+      throw WrongNumber(signal.name, inQuotes(used) + " follows from all forces, this one among them",
+                        "a formula "
+                        "of time, positions, velocities and own states");
     if (used == "t" || knows(used) || (signal.reach != Reach::time && unitOfMeasured(used) != nullptr)) continue;
     if (unitOfMeasured(used) != nullptr)
-      throw WrongNumber(signal.name,
-                        inQuotes(used) + " changes in motion; expected a formula of time and parameters alone");
+      throw WrongNumber(signal.name, inQuotes(used) + " changes in motion", "a formula of time and parameters alone");
     std::vector<std::string> known;
     if (signal.reach != Reach::time)
       std::ranges::copy_if(outputQuantities(), std::back_inserter(known), [&](const std::string& quantity) {
@@ -552,14 +552,13 @@ void Mechanism::refuseRateWithUnit(const Signal& signal) const {
     if (isAlike(found, {.time = -1})) return;
     const std::string unitOfRate = gamut::unitOf(found);
     ++found.time;
-    throw WrongNumber(signal.name, "a quantity in " + unitOfRate + ", but " + remark + "0 " + gamut::unitOf(found) +
-                                       "\"; expected a rate in 1/s, or a state with that unit");
+    throw WrongNumber(signal.name,
+                      "a quantity in " + unitOfRate + ", but " + remark + "0 " + gamut::unitOf(found) + "\"",
+                      "a rate in 1/s, or a state with that unit");
   } catch (const WrongNumber&) {
     throw;
   } catch (const UnitError& error) {
-    const std::string what = error.what();
-    const std::size_t end = std::min(what.find(';'), what.size());
-    throw WrongNumber(signal.name, what.substr(0, end) + ", and " + remark + "0 rad\"" + what.substr(end));
+    throw WrongNumber(signal.name, error.problem() + ", and " + remark + "0 rad\"", error.expected());
   }
 }
 
@@ -602,9 +601,9 @@ void Mechanism::checkCycle(const Signal& signal) const {
     const Measured* measured = measured_.find(name);
     if (measured == nullptr || reached.contains(measured->element)) continue;
     if (measured->element == signal.element)
-      throw WrongNumber(signal.name, "it depends on " + inQuotes(name) +
-                                         ", which depends on it; expected a formula of "
-                                         "what is known without it");
+      throw WrongNumber(signal.name, "it depends on " + inQuotes(name) + ", which depends on it",
+                        "a formula of "
+                        "what is known without it");
     reached.insert(measured->element);
     const auto others = signals_.find(measured->element);
     if (others == signals_.end()) continue;

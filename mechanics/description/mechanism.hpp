@@ -28,12 +28,11 @@
 
 namespace gamut {
 
-/// A number of a mechanism whose formula does not fit; what() is one line, "'NUMBER': what is wrong; what was
-/// expected".
+/// A number of a mechanism whose formula does not fit; the problem begins with "'NUMBER': ".
 class WrongNumber : public UnitError {
  public:
-  WrongNumber(const std::string& number, const std::string& what)
-      : UnitError("'" + number + "': " + what), number_(number) {}
+  WrongNumber(const std::string& number, const std::string& problem, const std::string& expected)
+      : UnitError("'" + number + "': " + problem, expected), number_(number) {}
   const std::string& number() const { return number_; }
 
  private:
@@ -58,7 +57,7 @@ class Mechanism {
 
   Mechanism();
 
-  // All of these throw std::invalid_argument with a sentence that says what is wrong and what was expected.
+  // All of these throw a Refusal.
 
   /// Declares a parameter before its first use. Without a unit it takes that of its first use.
   void addParameter(const std::string& name, const Interval& nominal, const std::string& unit = "");

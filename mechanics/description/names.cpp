@@ -112,20 +112,26 @@ std::string unknownName(std::string_view kind, std::string_view word, const std:
   return nearest.empty() ? start : start + "; did you mean '" + nearest + "'?";
 }
 
+namespace {
+
+std::string inParentheses(const std::string& remark) { return remark.empty() ? "" : " (" + remark + ")"; }
+
+}  // namespace
+
 UnknownName::UnknownName(const std::string& kind, const std::string& word, const std::vector<std::string>& candidates,
                          const std::string& remark, std::string number)
-    : std::invalid_argument(unknownName(kind, word, candidates) + (remark.empty() ? "" : " (" + remark + ")")),
-      problem_("unknown " + kind + " " + inQuotes(word)),
+    : Refusal(unknownName(kind, word, candidates) + inParentheses(remark), "unknown " + kind + " " + inQuotes(word),
+              expectedName(word, candidates) + inParentheses(remark)),
       word_(word),
-      number_(std::move(number)),
-      expected_(expectedName(word, candidates) + (remark.empty() ? "" : " (" + remark + ")")) {}
+      number_(std::move(number)) {}
 
 WrongUnit::WrongUnit(const std::string& kind, const std::string& parameter, const std::string& unit,
                      const std::string& use, const std::string& wanted)
-    : std::invalid_argument("the " + kind + " " + inQuotes(parameter) + " is in " + unit + ", but " + inQuotes(use) +
-                            " is in " + wanted),
-      kind_(kind),
-      parameter_(parameter),
-      wanted_(wanted) {}
+    : WrongUnit(
+          "the " + kind + " " + inQuotes(parameter) + " is in " + unit + ", but " + inQuotes(use) + " is in " + wanted,
+          parameter, "a " + kind + " in " + wanted) {}
+
+WrongUnit::WrongUnit(const std::string& problem, const std::string& parameter, const std::string& expected)
+    : Refusal(problem, problem, expected), parameter_(parameter) {}
 
 }  // namespace gamut

@@ -1,10 +1,11 @@
 // Helps with names that a user misspelt: the nearest known ones, and the sentence to say.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "mechanics/description/refusal.hpp"
 
 namespace gamut {
 
@@ -26,38 +27,35 @@ std::string oneOf(const std::vector<std::string>& names);
 /// candidates, "unknown KIND 'WORD': there is none yet".
 std::string unknownName(std::string_view kind, std::string_view word, const std::vector<std::string>& candidates);
 
-/// A name was used that nothing has; what() is unknownName's sentence, and a remark in parentheses.
-class UnknownName : public std::invalid_argument {
+/// A name was used that nothing has: "unknown KIND 'WORD'"; expected is expectedName, and a remark in parentheses.
+/// what() is unknownName's sentence, and the remark.
+class UnknownName : public Refusal {
  public:
   UnknownName(const std::string& kind, const std::string& word, const std::vector<std::string>& candidates,
               const std::string& remark = "", std::string number = "");
 
-  /// "unknown KIND 'WORD'"
-  const std::string& problem() const { return problem_; }
   const std::string& word() const { return word_; }
   /// The number, "spring.stiffness", in whose formula it stands; empty if in none.
   const std::string& number() const { return number_; }
-  /// expectedName and the remark.
-  const std::string& expected() const { return expected_; }
 
  private:
-  std::string problem_, word_, number_, expected_;
+  std::string word_, number_;
 };
 
-/// A parameter, or another quantity, stands where a number of another unit than its own is needed; what() is one
-/// sentence.
-class WrongUnit : public std::invalid_argument {
+/// A parameter, or another quantity, stands where a number of another unit than its own is needed; what() is the
+/// problem alone.
+class WrongUnit : public Refusal {
  public:
+  /// `kind`: "parameter" or "quantity".
   WrongUnit(const std::string& kind, const std::string& parameter, const std::string& unit, const std::string& use,
             const std::string& wanted);
 
-  /// "parameter" or "quantity"
-  const std::string& kind() const { return kind_; }
   const std::string& parameter() const { return parameter_; }
-  const std::string& wanted() const { return wanted_; }
 
  private:
-  std::string kind_, parameter_, wanted_;
+  WrongUnit(const std::string& problem, const std::string& parameter, const std::string& expected);
+
+  std::string parameter_;
 };
 
 }  // namespace gamut

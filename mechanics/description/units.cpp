@@ -144,7 +144,7 @@ Amount checked(Amount amount) {
   }();
   const mpq_class size = abs(amount.value);
   if (std::abs(amount.piPower) > 20 || size > largest || (size != 0 && size * largest < 1))
-    throw UnitError("a number is too large or too small; expected a magnitude between 1e-300 and 1e300, or 0");
+    throw UnitError("a number is too large or too small", "a magnitude between 1e-300 and 1e300, or 0");
   return amount;
 }
 
@@ -336,14 +336,14 @@ std::string unitInsteadOf(const std::string& word) {
 }
 
 Amount product(const Amount& a, const Amount& b) {
-  if (a.isRelative && b.isRelative) throw UnitError("there is more than one '%'; expected one '%'");
+  if (a.isRelative && b.isRelative) throw UnitError("there is more than one '%'", "one '%'");
   Amount result = joined(a, b, 1);
   result.value *= b.value;
   return checked(result);
 }
 
 Amount quotient(const Amount& a, const Amount& b) {
-  if (b.value == 0) throw UnitError("a division by zero; expected a nonzero divisor");
+  if (b.value == 0) throw UnitError("a division by zero", "a nonzero divisor");
   Amount result = joined(a, b, -1);
   result.value /= b.value;
   return checked(result);

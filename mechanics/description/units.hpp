@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "mechanics/description/refusal.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -47,10 +48,10 @@ bool isAlike(Dimension a, const Dimension& b);
 /// (N m is N m/rad), but an angle is no plain number.
 bool isCompatible(const Dimension& found, const Dimension& expected);
 
-/// Text that is no amount; what() says what is wrong and what was expected, as "…; expected …".
-class UnitError : public std::invalid_argument {
+/// Text that is no amount.
+class UnitError : public Refusal {
  public:
-  using std::invalid_argument::invalid_argument;
+  using Refusal::Refusal;
 };
 
 /// An exactly known number with a dimension: value * pi^piPower, in SI units.

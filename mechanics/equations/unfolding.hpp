@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "mechanics/description/unfit_part.hpp"
+#include "mechanics/description/refusal.hpp"
 #include "mechanics/equations/system.hpp"
 #include "mechanics/rigid_end.hpp"
 

@@ -111,15 +111,13 @@ class MechanismReader {
     try {
       return textOfRobot(path);
     } catch (const StudyError& error) {
-      std::string what = error.what();
-      const std::size_t end = what.find("; expected ");
-      source_.fail(node, what.substr(0, end), what.substr(end + std::string("; expected ").size()));
+      source_.fail(node, error.place() + ": " + error.problem(), error.expected());
     }
   }
 
   [[noreturn]] static void refuseRobot(const Robot& robot, int line, std::string what) {
     std::ranges::replace(what, ';', ',');
-    throw StudyError(complaintAt(fmt::format("{}:{}", robot.file, line), what, "a robot whose parts fit together"));
+    throw StudyError(fmt::format("{}:{}", robot.file, line), what, "a robot whose parts fit together");
   }
 
   /// Every value in tables within tables, by the names of all of them.
@@ -209,6 +207,8 @@ class MechanismReader {
     mechanism_.checkSignals(word.key);
   }
 
+  static constexpr const char* thatFits = "a mechanism that can be assembled";
+
   /// What the mechanism refuses is an error of the file at this place.
   template <class Action>
   void guarded(const toml::node& at, const Action& action) const {
@@ -221,18 +221,14 @@ class MechanismReader {
     } catch (const WrongUnit& error) {
       const auto stated = statedWithUnit_.find(error.parameter());
       const toml::node* place = stated == statedWithUnit_.end() ? textWith(at, error.parameter()) : stated->second;
-      source_.fail(place == nullptr ? at : *place, error.what(), "a " + error.kind() + " in " + error.wanted());
+      source_.fail(place == nullptr ? at : *place, error.problem(), error.expected());
     } catch (const WrongNumber& error) {
       const auto place = places_.find(error.number());
-      source_.fail(place == places_.end() ? at : *place->second, error);
-    } catch (const UnitError& error) {
-      source_.fail(at, error);
+      source_.fail(place == places_.end() ? at : *place->second, error.problem(), error.expected());
+    } catch (const Refusal& error) {
+      source_.failWith(at, error.problem(), error.expected().empty() ? thatFits : error.expected());
     } catch (const std::invalid_argument& error) {
-      const std::string what = error.what(), expected = "; expected ";
-      const std::size_t end = what.find(expected);
-      source_.failWith(
-          at, what.substr(0, end),
-          end == std::string::npos ? "a mechanism that can be assembled" : what.substr(end + expected.size()));
+      source_.failWith(at, error.what(), thatFits);
     }
   }
 
@@ -600,7 +596,7 @@ class MechanismReader {
       if (std::ranges::all_of(names, [&](const std::string& used) { return mechanism_.knows(used); }))
         mechanism_.check(formula, name, unit);
     } catch (const UnitError& error) {
-      source_.fail(node, error);
+      source_.fail(node, error.problem(), error.expected());
     } catch (const WrongUnit&) {  // whose place is where the parameter got its unit: the mechanism will say it
     }
     return formula;

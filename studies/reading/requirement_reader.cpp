@@ -197,7 +197,7 @@ class RequirementReader {
       if (outputNamed(side.text) != nullptr && unitNamed(side.text) != nullptr)
         source_.fail(node, fmt::format("'{}' is a unit as well as an output", side.text),
                      fmt::format("the output in single quotes, '{}'", side.text));
-      source_.fail(node, error);
+      source_.fail(node, error.problem(), error.expected());
     }
     if (const std::optional<Amount> amount = side.expression.amount()) {
       side.unitOfNumber = unitBehindNumber(side.text);

@@ -51,7 +51,7 @@ class RobotElements {
   void add(Described element, int line) { elements_.push_back({std::move(element), line}); }
 
   [[noreturn]] void refuse(int line, const std::string& what, const std::string& expected) const {
-    throw StudyError(complaintAt(fmt::format("{}:{}", robot_.file, line), what, expected));
+    throw StudyError(fmt::format("{}:{}", robot_.file, line), what, expected);
   }
 
   Expression number(const std::string& name, const Interval& value, const char* unit) {

@@ -312,7 +312,7 @@ class StudyReader {
     try {
       return unitOf(study_.mechanism.dimensionOf(expression));
     } catch (const UnitError& error) {
-      source_.fail(node, error);
+      source_.fail(node, error.problem(), error.expected());
     }
   }
 
@@ -329,7 +329,7 @@ class StudyReader {
       if (dimensionOf(unit) == dimensionOf(own)) return unit == "1" || unit.empty() ? own : unit;
       if (isAlikeButForRadians(dimensionOf(unit), dimensionOf(own))) return unit;
     } catch (const UnitError& error) {
-      source_.fail(*node, error);
+      source_.fail(*node, error.problem(), error.expected());
     }
     source_.fail(
         *node, fmt::format("output.unit is {}, which does not measure what is wanted", unit),
@@ -486,7 +486,7 @@ Mechanism readMechanismText(const std::string& text, const std::string& name, co
 
 std::string textOfStudy(const std::string& path) {
   if (const std::string fault = whyUnreadable(path); !fault.empty())
-    throw StudyError(fmt::format("{}: {}; expected a study file (TOML)", path, fault));
+    throw StudyError(path, fault, "a study file (TOML)");
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }

@@ -108,7 +108,7 @@ class TableReader {
  private:
   [[noreturn]] void refuse(const std::string& why) const { gamut::refuse(path_, why); }
   [[noreturn]] void fail(const Cell& cell, const std::string& what, const std::string& expected) const {
-    throw StudyError(complaintAt(fmt::format("{}:{}:{}", path_, line_, cell.column), what, expected));
+    throw StudyError(fmt::format("{}:{}:{}", path_, line_, cell.column), what, expected);
   }
 
   /// Spreadsheets write semicolons where the decimal sign is a comma.
@@ -236,7 +236,7 @@ const std::string& TableFiles::textOf(const std::string& name) const {
 void TableFiles::fail(const toml::node& node, std::size_t line, const std::string& problem,
                       const std::string& expected) const {
   const std::string path = pathOf(node.value_or(std::string()));
-  throw StudyError(complaintAt(fmt::format("{}:{}:1", path, line), problem, expected));
+  throw StudyError(fmt::format("{}:{}:1", path, line), problem, expected);
 }
 
 TableFiles::Columns TableFiles::columns(const toml::node& node, const std::string& what,

@@ -53,8 +53,7 @@ Tolerances readTolerancesText(const std::string& text, const std::string& name,
 }
 
 Tolerances readTolerances(const std::string& path, const std::vector<std::string>& outputs) {
-  if (const std::string fault = whyUnreadable(path); !fault.empty())
-    throw StudyError(fmt::format("{}: {}; expected {}", path, fault, expectedFile));
+  if (const std::string fault = whyUnreadable(path); !fault.empty()) throw StudyError(path, fault, expectedFile);
   std::ifstream file(path, std::ios::binary);
   return readTolerancesText({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()}, path, outputs);
 }

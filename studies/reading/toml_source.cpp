@@ -103,7 +103,7 @@ std::string meantName(const std::string& word, const std::vector<std::string>& k
 
 TomlSource::TomlSource(std::string text, std::string name, const std::string& kind)
     : text_(std::move(text)), name_(std::move(name)), lineStarts_{0} {
-  if (text_.find('\0') != std::string::npos) throw StudyError(fmt::format("{}: is no text; expected {}", name_, kind));
+  if (text_.find('\0') != std::string::npos) throw StudyError(name_, "is no text", kind);
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') lineStarts_.push_back(i + 1);
   checkKeys();
@@ -162,7 +162,7 @@ std::string TomlSource::placeOf(const toml::source_position& at) const {
 }
 
 void TomlSource::fail(const toml::source_position& at, const std::string& what, const std::string& expected) const {
-  throw StudyError(complaintAt(placeOf(at), what, expected));
+  throw StudyError(placeOf(at), what, expected);
 }
 
 std::string TomlSource::note(const toml::node& at, const std::string& text) const {
@@ -225,15 +225,8 @@ Amount TomlSource::readAnyAmount(const toml::node& node, const std::string& what
   try {
     return parseAmount(text);
   } catch (const UnitError& error) {
-    fail(node, UnitError(fmt::format("{}: {}", what, error.what())));
+    fail(node, fmt::format("{}: {}", what, error.problem()), error.expected());
   }
-}
-
-void TomlSource::fail(const toml::node& at, const UnitError& error) const {
-  const std::string_view what = error.what(), joint = "; expected ";
-  const std::size_t end = std::min(what.find(joint), what.size());
-  fail(at.source().begin, std::string(what.substr(0, end)),
-       std::string(what.substr(std::min(end + joint.size(), what.size()))));
 }
 
 std::string TomlSource::nameIn(std::string_view formula) const {
@@ -250,7 +243,7 @@ Expression TomlSource::asExpression(const toml::node& node, const std::string& w
       return names_.parameters.contains(word) || (isOfMotion && names_.states.contains(word));
     });
   } catch (const UnitError& error) {
-    fail(node, UnitError(fmt::format("{}: {}", what, error.what())));
+    fail(node, fmt::format("{}: {}", what, error.problem()), error.expected());
   }
 }
 

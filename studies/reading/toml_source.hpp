@@ -46,9 +46,6 @@ class TomlSource {
     fail(at.source().begin, what, expected);
   }
 
-  /// What is wrong with a formula, which says itself what was expected.
-  [[noreturn]] void fail(const toml::node& at, const UnitError& error) const;
-
   /// "file:line:column"
   std::string placeOf(const toml::node& at) const { return placeOf(at.source().begin); }
 

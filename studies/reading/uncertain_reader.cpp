@@ -118,11 +118,9 @@ class UncertainReader {
     try {
       action();
     } catch (const StudyError& error) {
-      std::string what = error.what();
-      const std::string name = printable("'" + quantity + "'");
-      const std::size_t end = what.rfind("; expected ");
-      if (what.find(name) != std::string::npos || end == std::string::npos) throw;
-      throw StudyError(what.insert(end, fmt::format(", for {}", name)));
+      const std::string name = "'" + quantity + "'";
+      if ((error.problem() + error.expected()).find(name) != std::string::npos) throw;
+      throw StudyError(error.place(), fmt::format("{}, for {}", error.problem(), name), error.expected());
     }
   }
 

@@ -382,15 +382,14 @@ int freedomOf(const Robot::Joint& joint) { return joint.mimic ? 0 : Freedom(join
 
 std::string textOfRobot(const std::string& path) {
   const std::string expected = "a robot's description (URDF)";
-  if (const std::string fault = whyUnreadable(path); !fault.empty())
-    throw StudyError(fmt::format("{}: {}; expected {}", path, fault, expected));
+  if (const std::string fault = whyUnreadable(path); !fault.empty()) throw StudyError(path, fault, expected);
   std::ifstream file(path, std::ios::binary);
   std::string text(mostBytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > mostBytes)
-    throw StudyError(
-        fmt::format("{}: has more than {} MB; expected {} without meshes", path, mostBytes / 1'000'000, expected));
+    throw StudyError(path, fmt::format("has more than {} MB", mostBytes / 1'000'000),
+                     std::string(expected) + " without meshes");
   return text;
 }
 

@@ -78,7 +78,7 @@ const XmlSource::Element& XmlSource::root(const std::string& name) const {
 }
 
 void XmlSource::fail(int line, const std::string& what, const std::string& expected) const {
-  throw StudyError(complaintAt(fmt::format("{}:{}", name_, std::max(line, 1)), what, expected));
+  throw StudyError(fmt::format("{}:{}", name_, std::max(line, 1)), what, expected);
 }
 
 std::string XmlSource::note(int line, const std::string& text) const {
