@@ -5,6 +5,7 @@
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/orientation.hpp"
+#include "scalars/evaluation/evaluate.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/recorded.hpp"
@@ -22,67 +23,6 @@ Program withDerivatives(const Expression& expression, const std::vector<std::str
     });
   });
   return f.differentiated().differentiated();  // f, f', then the derivatives of both
-}
-
-/// The outputs of a program of elementary functions at t and p. (Evaluator serves no Recorded.)
-template <class S>
-std::vector<S> valuesOf(const Program& program, const S& t, const std::vector<S>& p) {
-  using std::abs, std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
-  std::vector<S> values;
-  for (const Node& node : program.nodes()) {
-    const auto a = [&]() -> const S& { return values[static_cast<std::size_t>(node.a)]; };
-    const auto b = [&]() -> const S& { return values[static_cast<std::size_t>(node.b)]; };
-    const auto value = [&]() -> S {
-      switch (node.op) {
-        case Op::state:
-        case Op::time:
-          return t;
-        case Op::parameter:
-          return p[static_cast<std::size_t>(node.a)];
-        case Op::constant:
-          return constant<S>(program.constants()[static_cast<std::size_t>(node.a)]);
-        case Op::add:
-          return a() + b();
-        case Op::sub:
-          return a() - b();
-        case Op::neg:
-          return -a();
-        case Op::mul:
-          return a() * b();
-        case Op::sqr:
-          return square(a());
-        case Op::recip:
-          return S(1.0) / a();
-        case Op::sqrt:
-          return sqrt(a());
-        case Op::exp:
-          return exp(a());
-        case Op::log:
-          return log(a());
-        case Op::atan:
-          return atan(a());
-        case Op::sin:
-          return sin(a());
-        case Op::cos:
-          return cos(a());
-        case Op::tanh:
-          return tanh(a());
-        case Op::sech2:
-          return S(1.0) - square(S(tanh(a())));
-        case Op::abs:
-          return abs(a());
-        case Op::sign:
-          return signOf(a());
-        case Op::solution:
-          break;
-      }
-      throw std::logic_error("an expression holds no linear system");
-    };
-    values.push_back(value());
-  }
-  std::vector<S> outputs;
-  for (int node : program.outputNodes()) outputs.push_back(values[static_cast<std::size_t>(node)]);
-  return outputs;
 }
 
 }  // namespace
@@ -180,7 +120,7 @@ TimeFunction<S> Assembler<S>::timeFunction(const Expression& expression) const {
   std::vector<S> values;
   for (const std::string& name : names) values.push_back(parameters_.at(name));
   return [this, program = withDerivatives(expression, names), values] {
-    const std::vector<S> y = valuesOf(program, time_, values);
+    const std::vector<S> y = evaluate<S>(program, {time_}, values);
     return std::array<S, 3>{y[0], y[1], y[3]};
   };
 }

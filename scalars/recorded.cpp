@@ -75,4 +75,16 @@ Recorded pow(const Recorded& x, double exponent) {
 
 Recorded pow(const Recorded& x, const Recorded& y) { return exp(y * log(x)); }
 
+std::vector<Recorded> written(const Program& f, const std::vector<Recorded>& x, const std::vector<Recorded>& p,
+                              const Recorded& t) {
+  std::vector<int> parameters, instead(f.nodes().size(), -1);
+  for (const Recorded& value : p) parameters.push_back(value.node());
+  for (std::size_t i = 0; i < x.size(); ++i) instead[i] = x[i].node();
+  instead[x.size() + p.size()] = t.node();
+  const std::vector<int> here = Recorder::current()->append(f, parameters, instead);
+  std::vector<Recorded> y;
+  for (const int output : f.outputNodes()) y.push_back(Recorded::node(here[detail::at(output)]));
+  return y;
+}
+
 }  // namespace gamut

@@ -82,13 +82,10 @@ class Recorded {
 
   // What a Program has an operation for.
   friend Recorded sqr(const Recorded& a) { return node(recorder().sqr(a.node())); }
-  friend Recorded sqrt(const Recorded& a) { return node(recorder().sqrt(a.node())); }
-  friend Recorded exp(const Recorded& a) { return node(recorder().exp(a.node())); }
-  friend Recorded log(const Recorded& a) { return node(recorder().log(a.node())); }
-  friend Recorded sin(const Recorded& a) { return node(recorder().sin(a.node())); }
-  friend Recorded cos(const Recorded& a) { return node(recorder().cos(a.node())); }
-  friend Recorded atan(const Recorded& a) { return node(recorder().atan(a.node())); }
-  friend Recorded tanh(const Recorded& a) { return node(recorder().tanh(a.node())); }
+#define GAMUT_FUNCTION(name) \
+  friend Recorded name(const Recorded& a) { return node(recorder().name(a.node())); }
+  GAMUT_FUNCTIONS(GAMUT_FUNCTION)
+#undef GAMUT_FUNCTION
 
   // What is composed of these, by formulas that hold exactly on the domains given: at the boundary of a domain that is
   // written open, and at a pole, evaluation divides by zero. log 2, log 10 and atan 1 are recorded as such, not as
@@ -131,9 +128,6 @@ class Recorded {
   friend Recorded cbrt(const Recorded& x);
   /// e^{(log x)/n}, for x > 0 and n ≠ 0.
   friend Recorded rootn(const Recorded& x, int n);
-  friend Recorded abs(const Recorded& a) { return node(recorder().abs(a.node())); }
-  /// -1, 0 or 1.
-  friend Recorded sign(const Recorded& a) { return node(recorder().sign(a.node())); }
   /// x where the condition is above 0, y where it is below; where it is 0, their mean, and in ẋ = f all that lies
   /// between.
   friend Recorded where(const Recorded& condition, const Recorded& x, const Recorded& y);
@@ -171,6 +165,11 @@ template <>
 struct ScalarTraits<Recorded> {
   static Recorded constant(const Interval& value) { return Recorded(value); }
 };
+
+/// The outputs of f at the states x, parameters p and time t, written down node by node in the program that is being
+/// recorded.
+std::vector<Recorded> written(const Program& f, const std::vector<Recorded>& x, const std::vector<Recorded>& p,
+                              const Recorded& t);
 
 /// True only if x is the number 0 whatever the inputs are: known while recording, never asked of a value. Terms that
 /// are known zeros may be left out; the result is the same number with or without them.

@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
-#include "scalars/elementary/fine_functions.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/elementary/vector_unit.hpp"
+#include "scalars/operations/all.hpp"
 
 #ifdef __x86_64__
 #define GAMUT_FUSED [[gnu::target("fma")]]
@@ -51,27 +52,58 @@ GAMUT_INLINE Number times(const Number& a, double factor) {
   return detail::exactSum(p.hi, p.lo);
 }
 
-/// Σ a_j b_{i-j} for from ≤ j ≤ to.
-template <bool fused>
-GAMUT_INLINE Number dot(const Number* a, const Number* b, int i, int from, int to) {
-  Number s{0, 0};
-  for (int j = from; j <= to; ++j) addProduct<fused>(s, a[j], b[i - j]);
-  return s;
+template <class F>
+constexpr bool hasFineForm = requires(const Number& u, detail::FineValue& point) {
+  F::fine(u, std::true_type());
 }
-
-/// Σ j a_j b_{i-j} / i for 1 ≤ j ≤ to.
-template <bool fused>
-GAMUT_INLINE Number slopeDot(const Number* a, const Number* b, int i, int to) {
-  Number s{0, 0};
-  for (int j = 1; j <= to; ++j) addProduct<fused>(s, times<fused>(a[j], j), b[i - j]);
-  return detail::quotient<fused>(s, {static_cast<double>(i), 0});
-}
+|| requires(const Number& u, detail::FineValue& point) { F::fine(u, point, point); };
 
 }  // namespace
 
+/// As operations/function.hpp asks for it.
+template <bool fused>
+struct FineRecursion::Orders {
+  FineRecursion& of;
+
+  Number& at(int node, int i) const { return of.values_[of.first(node) + detail::at(i)]; }
+  /// Σ a_j b_{i-j} for from ≤ j ≤ to.
+  GAMUT_INLINE Number convolution(int a, int b, int i, int from, int to) const {
+    Number s{0, 0};
+    for (int j = from; j <= to; ++j) addProduct<fused>(s, at(a, j), at(b, i - j));
+    return s;
+  }
+  /// Σ j a_j b_{i-j} / i for 1 ≤ j ≤ to.
+  GAMUT_INLINE Number slopes(int a, int b, int i, int to) const {
+    Number s{0, 0};
+    for (int j = 1; j <= to; ++j) addProduct<fused>(s, times<fused>(at(a, j), j), at(b, i - j));
+    return quotient(s, {static_cast<double>(i), 0});
+  }
+  GAMUT_INLINE Number difference(const Number& x, const Number& y) const { return sum(x, -y); }
+  GAMUT_INLINE Number quotient(const Number& x, const Number& y) const { return detail::quotient<fused>(x, y); }
+  GAMUT_INLINE Number half(const Number& x) const { return {0.5 * x.hi, 0.5 * x.lo}; }
+
+  GAMUT_INLINE void begin(auto f, int node, int a) const {
+    detail::FineValue first{}, second{};
+    if constexpr (requires { f.fine(at(a, 0), first, second); }) {
+      f.fine(at(a, 0), first, second);
+      put(node + 1, second);
+    } else {
+      first = f.fine(at(a, 0), std::bool_constant<fused>());
+    }
+    put(node, first);
+  }
+
+ private:
+  void put(int node, const detail::FineValue& point) const {
+    at(node, 0) = point.value;
+    of.pointError_[detail::at(node)] = point.error;
+  }
+};
+
 bool FineRecursion::isPossible(const std::vector<gamut::Node>& nodes) {
-  return std::ranges::none_of(
-      nodes, [](const gamut::Node& v) { return v.op == Op::tanh || v.op == Op::abs || v.op == Op::sign; });
+  return std::ranges::all_of(nodes, [](const gamut::Node& v) {
+    return !isFunction(v.op) || isTwin(v.op) || withFunction(v.op, [](auto f) { return hasFineForm<decltype(f)>; });
+  });
 }
 
 void FineRecursion::plan(int orders, std::vector<Node> nodes, std::vector<int> computed,
@@ -123,23 +155,6 @@ GAMUT_INLINE void FineRecursion::run(double t0, double h0) {
   }
 }
 
-/// Of sine, exponential, logarithm, arc tangent.
-void FineRecursion::setPoint(int node) {
-  const Node& v = nodes_[at(node)];
-  const Number u = value(v.a, 0);
-  const auto put = [&](int which, const detail::FineValue& point) {
-    values_[first(which)] = point.value;
-    pointError_[at(which)] = point.error;
-  };
-  if (v.op == Op::sin) {
-    const detail::FineSinCos both = detail::fineSinCos(u);
-    put(node, both.sin);
-    put(node + 1, both.cos);
-  } else {
-    put(node, v.op == Op::exp ? detail::fineExp(u) : v.op == Op::log ? detail::fineLog(u) : detail::fineAtan(u));
-  }
-}
-
 template <bool fused>
 GAMUT_INLINE void FineRecursion::computeOrder(int node, int i) {
   const Node& v = nodes_[at(node)];
@@ -162,39 +177,20 @@ GAMUT_INLINE void FineRecursion::computeOrder(int node, int i) {
       out[i] = -a[i];
       return;
     case Op::mul:
-      out[i] = nodes_[at(v.a)].invariant ? product<fused>(a[0], b[i]) : dot<fused>(a, b, i, 0, i);
+      out[i] =
+          nodes_[at(v.a)].invariant ? product<fused>(a[0], b[i]) : Orders<fused>{*this}.convolution(v.a, v.b, i, 0, i);
       return;
     case Op::sqr:
-      out[i] = dot<fused>(a, a, i, 0, i);
-      return;
-    case Op::recip:
-      out[i] = i == 0 ? detail::quotient<fused>({1, 0}, a[0])
-                      : detail::quotient<fused>(-dot<fused>(out, a, i, 0, i - 1), a[0]);
-      return;
-    case Op::sqrt:
-      if (i == 0) {
-        out[0] = detail::squareRoot<fused>(a[0]);
-      } else {
-        const Number rest = sum(a[i], -dot<fused>(out, out, i, 1, i - 1));
-        out[i] = detail::quotient<fused>({0.5 * rest.hi, 0.5 * rest.lo}, out[0]);
-      }
-      return;
-    case Op::exp:
-      if (i == 0) return setPoint(node);
-      out[i] = slopeDot<fused>(a, out, i, i);
-      return;
-    case Op::log:
-    case Op::atan:
-      if (i == 0) return setPoint(node);
-      out[i] = detail::quotient<fused>(sum(a[i], -slopeDot<fused>(out, b, i, i - 1)), b[0]);
-      return;
-    case Op::sin:
-      if (i == 0) return setPoint(node);
-      out[i] = slopeDot<fused>(a, &values_[first(node + 1)], i, i);
-      values_[first(node + 1) + at(i)] = -slopeDot<fused>(a, out, i, i);
+      out[i] = Orders<fused>{*this}.convolution(v.a, v.a, i, 0, i);
       return;
     default:
-      return;
+      return withFunction(
+          v.op, [&](auto f) __attribute__((always_inline)) {
+            if constexpr (hasFineForm<decltype(f)>) {
+              Orders<fused> orders{*this};
+              i == 0 ? orders.begin(f, node, v.a) : f.order(orders, node, v.a, v.b, i);
+            }
+          });
   }
 }
 
@@ -213,7 +209,7 @@ GAMUT_INLINE void FineRecursion::solve(int node, int i) {
     Number s = value(solution.rightSide[at(k)], i);
     for (int j = 0; j < n; ++j) {
       const int entry = solution.matrix[at(k * n + j)];
-      if (!nodes_[at(entry)].invariant) s = sum(s, -dot<fused>(&values_[first(entry)], x(j), i, 1, i));
+      if (!nodes_[at(entry)].invariant) s = sum(s, -Orders<fused>{*this}.convolution(entry, node + j, i, 1, i));
     }
     rightSide_[at(k)] = s;
     x(k)[i] = {0, 0};

@@ -31,7 +31,7 @@ class FineRecursion {
     std::vector<double> residual;  // |b - A x|, [order][component]
   };
 
-  /// Whether every operation has a form in double-double: not so tanh, abs, sign.
+  /// Whether every operation has a form in double-double.
   static bool isPossible(const std::vector<gamut::Node>& nodes);
 
   /// `computed`: numbers of the operations to compute, in order. `states` pairs a state with the node of its
@@ -52,13 +52,14 @@ class FineRecursion {
 
  private:
   template <bool fused>
+  struct Orders;
+  template <bool fused>
   void run(double t0, double h0);
   void runFused(double t0, double h0);
   template <bool fused>
   void computeOrder(int node, int i);
   template <bool fused>
   void solve(int node, int i);
-  void setPoint(int node);
   std::size_t first(int node) const { return detail::at(node * orders_); }
 
   int orders_ = 0, time_ = 0;

@@ -54,7 +54,7 @@ namespace {
 
 /// Whether solutions may turn: at a jump or a kink.
 bool mayTurn(const Program& f) {
-  return std::ranges::any_of(f.nodes(), [](const Node& node) { return node.op == Op::sign || node.op == Op::abs; });
+  return std::ranges::any_of(f.nodes(), [](const Node& node) { return !isSmooth(node.op); });
 }
 
 /// Throws std::invalid_argument unless these make sense together.

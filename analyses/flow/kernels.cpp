@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "analyses/flow/operations/all.hpp"
+#include "analyses/flow/thin.hpp"
 #include "analyses/flow/vector_clones.hpp"
 #include "analyses/flow/vectors.hpp"
 #include "analyses/work.hpp"
@@ -145,18 +147,6 @@ GAMUT_CLONES double dot(const double* a, const double* b, int stride) {
   return sum(s);
 }
 
-namespace {
-
-/// Σ_{j≤i} a_j b_{i-j} over stored orders; entries of the order being computed are still zero.
-GAMUT_INLINE double thinDot(const double* a, const double* bReversed, int i) {
-  const double* b = bReversed - i;
-  Vector s = load(a) * load(b);
-  for (int c = 8; c <= i; c += 8) s += load(a + c) * load(b + c);
-  return sum(s);
-}
-
-}  // namespace
-
 /// Order i of the components from node x on: A₀ x_i = b_i - Σ_{j≥1} A_j x_{i-j}.
 GAMUT_INLINE void thinSolution(const ThinNode* v, int x, const ThinSolution& solution, int i, double* cur) {
   const int n = static_cast<int>(solution.rightSide.size());
@@ -187,12 +177,6 @@ GAMUT_INLINE void thinOrder(const ThinNode* v, int x, const std::vector<const Th
     case Op::neg:
       cur[x] = -cur[n.a];
       break;
-    case Op::abs:
-      cur[x] = *n.slope * cur[n.a];
-      break;
-    case Op::sign:
-      cur[x] = 0;
-      break;
     case Op::mul:
       cur[x] = n.scaled
                    ? a.forward[0] * cur[n.b]
@@ -201,32 +185,15 @@ GAMUT_INLINE void thinOrder(const ThinNode* v, int x, const std::vector<const Th
     case Op::sqr:
       cur[x] = thinDot(a.forward, a.reversed, i) + 2 * (a.forward[0] * cur[n.a]);
       break;
-    case Op::recip:
-      cur[x] = -(thinDot(n.forward, a.reversed, i) + n.forward[0] * cur[n.a]) * n.forward[0];
-      break;
-    case Op::sqrt:
-      cur[x] = 0.5 * (cur[n.a] - thinDot(n.forward, n.reversed, i)) / n.forward[0];
-      break;
-    case Op::exp:
-      cur[x] = (thinDot(a.derivative, n.reversed, i) + i * cur[n.a] * n.forward[0]) / i;
-      break;
-    case Op::log:
-    case Op::atan:
-      cur[x] = (cur[n.a] - thinDot(n.derivative, v[n.b].reversed, i) / i) / v[n.b].forward[0];
-      break;
-    case Op::sin: {
-      const double slope = i * cur[n.a];
-      cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + slope * v[x + 1].forward[0]) / i;
-      cur[x + 1] = -(thinDot(a.derivative, n.reversed, i) + slope * n.forward[0]) / i;
-      break;
-    }
-    case Op::tanh:
-      cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + i * cur[n.a] * v[x + 1].forward[0]) / i;
-      cur[x + 1] = -(thinDot(n.forward, n.reversed, i) + 2 * (n.forward[0] * cur[x]));
-      break;
     case Op::solution:
       if (n.b == 0) thinSolution(v, x, *solutions[static_cast<std::size_t>(n.a)], i, cur);
       break;
+#define GAMUT_CASE(name)                                                              \
+  case Op::name:                                                                      \
+    if constexpr (!isTwin(Op::name)) FlowFunction<Op::name>::thinOrder(v, x, i, cur); \
+    break;
+      GAMUT_FUNCTIONS(GAMUT_CASE)
+#undef GAMUT_CASE
     default:
       break;
   }

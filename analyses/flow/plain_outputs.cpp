@@ -21,7 +21,7 @@ std::vector<int> argumentsOfRoots(const Program& g, std::vector<int> open) {
     if (isUsed[at(i)] != 0) continue;
     isUsed[at(i)] = 1;
     const Node& node = g.nodes()[at(i)];
-    if (node.op == Op::sqrt || node.op == Op::log) found.push_back(node.a);
+    if (isOneSided(domainOf(node.op))) found.push_back(node.a);
     detail::forEachOperand(g.table(), i, [&](int operand) { open.push_back(operand); });
   }
   return found;

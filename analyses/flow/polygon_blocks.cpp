@@ -93,8 +93,7 @@ Program blockOf(const Program& f, const std::array<int, 2>& states, const std::v
 bool PolygonBlocks::suits(const Program& f) {
   return std::ranges::none_of(f.nodes(),
                               [](const Node& node) {
-                                return node.op == Op::abs || node.op == Op::sign || node.op == Op::sqrt ||
-                                       node.op == Op::log || node.op == Op::solution;
+                                return !isSmooth(node.op) || isOneSided(domainOf(node.op)) || node.op == Op::solution;
                               }) &&
          !blocksOf(f).empty();
 }

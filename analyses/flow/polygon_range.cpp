@@ -19,9 +19,8 @@ namespace {
 constexpr double unknownBound = std::numeric_limits<double>::infinity();
 
 bool isSmooth(const Program& g) {
-  return std::ranges::none_of(g.nodes(), [](const Node& node) {
-    return node.op == Op::abs || node.op == Op::sign || node.op == Op::sqrt || node.op == Op::log;
-  });
+  return std::ranges::none_of(g.nodes(),
+                              [](const Node& node) { return !isSmooth(node.op) || isOneSided(domainOf(node.op)); });
 }
 
 }  // namespace

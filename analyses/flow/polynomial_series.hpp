@@ -37,6 +37,14 @@ struct Embedded {
 /// Thrown where a computation was told to end in its midst.
 struct Cancelled {};
 
+struct AnyFlowFunction;
+template <Op op>
+struct FlowFunction;
+template <Op op>
+struct SlopeQuotient;
+template <Op op, class... Equations>
+struct SlopeProducts;
+
 class PolynomialSeries {
  public:
   /// Nodes that the first `primaryOutputs` outputs need keep the monomials' full degree, all others `frameDegree`.
@@ -186,6 +194,15 @@ class PolynomialSeries {
   void clear();
 
  private:
+  // Elementary functions (operations/flow_function.hpp).
+  friend struct AnyFlowFunction;
+  template <Op op>
+  friend struct FlowFunction;
+  template <Op op>
+  friend struct SlopeQuotient;
+  template <Op op, class... Equations>
+  friend struct SlopeProducts;
+
   static constexpr std::size_t at(int i) { return detail::at(i); }
   int last() const { return withFrame_ ? m_ : m_ - 1; }  // the highest order that any node keeps
   void goOnUnlessCancelled() const {
@@ -253,10 +270,27 @@ class PolynomialSeries {
   double orderNorm(const Plan& v, int i) const;
   double derivativeNorm(const Plan& v, int k, double theta) const;
   void computeOrder(int node, int i);
-  void computeQuotientOrder(int node, int i);
-  void computeFunctionOrder(int node, int i);
-  void convolveOrder(const double* left, const Plan& right, int count, int i, double* out);
+  void clearOrder(const Plan& v, int i);
+  const double* convolved(const Plan& v, int i, const double* left, const Plan& right, std::vector<double>& out);
   const double* putSlope(const Plan& v, int i);
+  const double* divided(int node, int i, const double* numerator);
+  /// Order i > 0 of what is a quotient by a leading polynomial; its own order i counts as zero in the sum of
+  /// left_j right_{i-j}. isOfSlopes: `left` are its slopes.
+  template <bool isOfSlopes, class Numerator>
+  void putQuotient(int node, int i, const double* left, const Plan& right, const Numerator& numerator) {
+    const Plan& v = plan_[at(node)];
+    clearOrder(v, i);
+    const int N = countOf(v, i);
+    if (isOfSlopes)
+      for (int g = 0; g < N; ++g) d_[v.d + at(g * stride_ + i)] = 0.0;
+    convolved(v, i, left, right, scratch_);
+    for (int g = 0; g < N; ++g) scratch_[at(g)] = numerator(g, scratch_[at(g)]);
+    const double* quotient = divided(node, i, scratch_.data());
+    for (int g = 0; g < N; ++g) {
+      put(v, g, i, quotient[g]);
+      if (isOfSlopes) d_[v.d + at(g * stride_ + i)] = i * quotient[g];
+    }
+  }
   void product(const Plan& a, const Plan& b, int count, int i, double* out);
   void computeFrameOrder(int i, double h0);
   void prepareThin();
@@ -271,9 +305,10 @@ class PolynomialSeries {
   void multiplyGrade(int q);
   void computeLanes(int q, int first, int count, double h0);
   void computeLane(int node, int i, int q);
-  void computeFunctionLane(int node, int i, int q);
   void computeSolutionLanes(int first, int i);
   void computeFrameLanes(int i, double h0);
+  const double* slope(int node) const { return &d_[plan_[at(node)].d]; }
+  const double* slopeLane(int node) const { return &slopes_[slopeAt_[at(node)]]; }
   double* lane(int node, int i) { return &lanes_[at((node * stride_ + i) * kernels::lanes)]; }
 
   void computeLeading(double t0, double h0);
@@ -283,12 +318,15 @@ class PolynomialSeries {
   double coarseNorm(int node, int from) const;
   double coarseProduct(int a, int b, int from) const;
   double productRounding(int node, int a, int b, int from, double coarse) const;
-  void pointFunctions(int node);
-  template <class Term>
-  double sumOverPairs(int g, const Term& term) const;
+  /// Σ term(p, r) over all pairs of monomials with product g, from p number `least` on: of 1, that is number 0, or not.
+  template <int least = 1, class Term>
+  double sumOverPairs(int g, const Term& term) const {
+    double sum = 0;
+    for (auto q = monomials_->first()[at(g)]; q < monomials_->first()[at(g) + 1]; ++q)
+      if (const auto [p, r] = monomials_->pairs()[at(q)]; p >= least) sum += term(p, r);
+    return sum;
+  }
   const double* invertLeading(int node, const Plan& b);
-  void initialRow(int node);
-  void initialFunctionRow(int node);
   bool tabulateNorms(std::size_t x, double last);
   void tabulateTails(std::size_t x);
   double tailTime(int a, int b) const;
@@ -296,10 +334,7 @@ class PolynomialSeries {
   double tailRow(int a, int b, int degree) const;
   double sumRounding(int node) const;
   void productErrors(int node, int a, int b, double& e0, double& e1) const;
-  void sineErrors(int node, double& e0, double& e1);
-  void tanhErrors(int node, double& e0, double& e1);
   void ownErrors(int node);
-  void differentialErrors(int u, int of, int degree, double& e0, double& e1) const;
   template <class Term>
   double sumOverProducts(int left, int right, bool isSlope, const Term& term);
   double productResidual(int left, int right, int target);
@@ -317,13 +352,19 @@ class PolynomialSeries {
     double r1(int i) const { return of.rho1_[at(i)]; }
     double r(int i) const { return r0(i) + r1(i); }
   };
+  Errors differentialErrors(int u, int of, int degree) const;
   bool boundNode(int node);
-  bool boundFunction(int node, const Operands& of, Errors& z) const;
-  void boundTanh(int node);
+  bool isBelowLargest(int node) const { return rho0_[at(node)] + rho1_[at(node)] < bounds::largest; }
+  bool setBounds(int node, const Errors& z) {
+    rho0_[at(node)] = z.e0 * bounds::up + bounds::tiny;
+    rho1_[at(node)] = z.e1 * bounds::up;
+    return isBelowLargest(node);
+  }
   void boundAbs(int node);
   void boundSign(int node);
   bool mayCross(int u);
   bool isNothing(const Plan& sum) const;
+  bool isGraded() const { return monomials_->degree() > 0; }
   double leading(int node) const { return std::fabs(f_[plan_[at(node)].f]); }
   double rest(int node) const;
   double moved(int node) const;

@@ -6,6 +6,7 @@
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/horner.hpp"
+#include "analyses/flow/operations/all.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/work.hpp"
 
@@ -21,14 +22,6 @@ bool PolynomialSeries::boundNode(int node) {
     case Op::time:
     case Op::constant:
       return true;
-    case Op::abs:
-      boundAbs(node);
-      return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
-    case Op::sign:
-      boundSign(node);
-      return true;
-    case Op::sech2:  // with its tanh
-      return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
     case Op::solution:
       return v.b > 0 || boundSolution(node);
     case Op::add:
@@ -46,98 +39,10 @@ bool PolynomialSeries::boundNode(int node) {
            norm_[at(v.a)] * of.r1(b) + norm_[at(b)] * of.r1(v.a) + own1_[at(node)]};
       break;
     }
-    case Op::sin:
-    case Op::cos:
-      z = {own0_[at(node)] + of.r0(v.a), own1_[at(node)] + of.r1(v.a)};
-      break;
-    case Op::tanh:
-      boundTanh(node);
-      return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
     default:
-      if (!boundFunction(node, of, z)) return false;
+      return withFunction<FlowFunction>(v.op, [&](auto f) { return f.bound(*this, node, of); });
   }
-  rho0_[at(node)] = z.e0 * bounds::up + bounds::tiny;
-  rho1_[at(node)] = z.e1 * bounds::up;
-  return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
-}
-
-/// Of those that have an edge to their domain, or that grow.
-bool PolynomialSeries::boundFunction(int node, const Operands& of, Errors& z) const {
-  const Plan& v = plan_[at(node)];
-  const double own0 = own0_[at(node)], own1 = own1_[at(node)], r = of.r(v.a);
-  switch (v.op) {
-    case Op::recip: {  // |1 - c̃b| ≤ η < 1 proves b ≠ 0, and |1/b - c̃| = |1 - c̃b|/|b| ≤ η‖c̃‖/(1-η)
-      const double eta0 = own0 + norm_[at(node)] * of.r0(v.a), eta1 = own1 + norm_[at(node)] * of.r1(v.a);
-      const double eta = (eta0 + eta1) * bounds::up;
-      if (!(eta < 0.99)) return false;
-      const double factor = norm_[at(node)] / (1 - eta);
-      z = {eta0 * factor, eta1 * factor};
-      return true;
-    }
-    case Op::sqrt: {  // |√b - s̃| = |b - s̃²|/(√b + s̃)
-      const double bMin = minimum(v.a) - r * bounds::up, sMin = minimum(node);
-      if (!(bMin > 0 && sMin > 0)) return false;
-      const double below = (sMin + std::sqrt(bMin)) * bounds::down;
-      z = {(own0 + of.r0(v.a)) / below, (own1 + of.r1(v.a)) / below};
-      return true;
-    }
-    case Op::exp: {
-      // ẽ' = ũ'ẽ + defect grows by at most e^{osc}, osc ≤ 2 Σ_{(i,α)≠0}|u_{iα}|θ^i; e^{u} - e^{ũ}: (e^ρ-1) ≤ e^ρ ρ.
-      const double way = rest(v.a);
-      if (!(way < 300 && r < 300)) return false;
-      const double growth = exp(Interval(2 * way * bounds::up)).upper();
-      const double tilt = (norm_[at(node)] + (own0 + own1) * growth) * exp(Interval(r * bounds::up)).upper();
-      z = {own0 * growth + tilt * of.r0(v.a), own1 * growth + tilt * of.r1(v.a)};
-      return true;
-    }
-    case Op::log: {  // defect over min|ũ|, and |log u - log ũ| ≤ ρ_u / min|u|
-      const double below = (minimum(v.a) - r * bounds::up) * bounds::down;
-      if (!(below > 0)) return false;
-      z = {pointError_[at(node)] + (own0 + of.r0(v.a)) / below, (own1 + of.r1(v.a)) / below};
-      return true;
-    }
-    default: {  // atan: 1 + ũ² ≥ 1; w̃ is off 1 + ũ² by its own bound and by u² - ũ²; |atan u - atan ũ| ≤ ρ_u
-      const double offW = of.r(v.b) + (2 * norm_[at(v.a)] + r) * r;
-      z = {pointError_[at(node)] + own0 + norm_[at(node)] * offW + of.r0(v.a), own1 + of.r1(v.a)};
-      return true;
-    }
-  }
-}
-
-/// tanh and sech² of u. T = tanh ũ and t̂ = t̃ + tanh u_00 - t_00 are equal where the path of rest() begins; from there
-/// on e = t̂ - T obeys e' = defect + ũ'(s̃ - (1 - t̂²)) - ũ'(t̂ + T) e, the first two of which are own, and |t̂ + T| ≤ 2|T|
-/// + |e|. With V = rest(u), |T| ≤ |ũ| ≤ |u_00| + V and Δ = own·e^{2V|T|}: |e| ≤ Δ e^{2VΔ} as long as that is below 2Δ.
-/// Besides, tanh u and tanh u_00 are less than 2e^{-2a} apart, if |u| ≥ a for all u and they have one sign (a = 0: or
-/// not), and 0 < sech² u ≤ 4e^{-2a}: bounds that hold whatever the polynomials are.
-void PolynomialSeries::boundTanh(int node) {
-  const int u = plan_[at(node)].a, slope = node + 1;
-  const auto upperExp = [](double x) { return exp(Interval(x)).upper(); };
-  const double V = rest(u) * bounds::up, rho = (rho0_[at(u)] + rho1_[at(u)]) * bounds::up;
-  const double least = std::max(0.0, (leading(u) - V - rho) * bounds::down - bounds::unit * leading(u));
-  const double decay = upperExp(-2 * least), steepest = std::min(1.0, 4 * decay);
-  const auto set = [&](int which, double z0, double z1, double whatever) {
-    const bool isProved = z0 + z1 <= whatever;
-    rho0_[at(which)] = (isProved ? z0 : whatever) * bounds::up + bounds::tiny;
-    rho1_[at(which)] = isProved ? z1 * bounds::up : 0.0;
-    return isProved;
-  };
-  double growth = upperExp(2 * V * std::min(1.0, leading(u) + V) * bounds::up);
-  const double delta = (own0_[at(node)] + own1_[at(node)]) * growth * bounds::up;
-  growth *= 2 * V * delta <= 0.69 ? upperExp(2 * V * delta * bounds::up) : HUGE_VAL;
-  const double e0 = own0_[at(node)] * growth, e1 = own1_[at(node)] * growth;
-  const double range = rest(node) + 2 * decay;
-  const bool isFollowed = set(node, pointError_[at(node)] + e0 + steepest * rho0_[at(u)], e1 + steepest * rho1_[at(u)],
-                              pointError_[at(node)] + range);
-  if ((isFollowed ? e0 : range) > bounds::unit) {
-    // A shorter step helps: u may go where tanh is ±1 to the last digit, or about as far as the pole at ±iπ/2 lets it.
-    constexpr double saturated = 19;  // 2e^{-2·19} < 2^-53
-    const double most = std::max(isFollowed ? 2.0 : 0.5, leading(u) - (V - moved(u)) - rho - saturated);
-    haste_ = std::max(haste_, moved(u) / most);
-  }
-  // 1 - t̂² - (1 - T²) = -e(2T + e), |(sech²)'| = 2|tanh| sech² < 0.77; sech² u and sech² u_00 lie in [0, steepest].
-  const double twice = 2 + (e0 + e1), tilt = std::min(0.77, 2 * steepest);
-  set(slope, own0_[at(slope)] + twice * e0 + tilt * rho0_[at(u)], own1_[at(slope)] + twice * e1 + tilt * rho1_[at(u)],
-      pointError_[at(slope)] + rest(slope) + steepest);
+  return setBounds(node, z);
 }
 
 /// Whether a sum is |u| + u, or |u| - u, where that is zero: exactly, whatever is known of u.
@@ -305,7 +210,7 @@ std::string PolynomialSeries::nearestEdge(double within) const {
   int nearest = -1;
   for (int i = 0; i < nodes_; ++i) {
     const Plan& v = plan_[at(i)];
-    if (v.op != Op::recip && v.op != Op::sqrt && v.op != Op::log) continue;
+    if (domainOf(v.op) == Domain::everywhere) continue;
     const double* argument = series(v.a);
     if (const double edge = -argument[0] / argument[1]; edge > 0 && edge < within) nearest = i, within = edge;
   }
@@ -313,20 +218,10 @@ std::string PolynomialSeries::nearestEdge(double within) const {
 }
 
 std::string PolynomialSeries::edgeOf(int node) const {
-  switch (plan_[at(node)].op) {
-    case Op::recip:
-      return "a division by what may be zero";
-    case Op::sqrt:
-      return "the square root of what may be zero or negative";
-    case Op::log:
-      return "the logarithm of what may be zero or negative";
-    case Op::exp:
-      return "an exponential that may become too large";
-    case Op::solution:
-      return "a linear system that may be singular";
-    default:
-      return "a number that may become too large";
-  }
+  const Op op = plan_[at(node)].op;
+  if (op == Op::solution) return "a linear system that may be singular";
+  return std::string(isFunction(op) ? withFunction<FlowFunction>(op, [](auto f) { return f.edge; })
+                                    : AnyFlowFunction::edge);
 }
 
 /// Σ_α |c_{iα}|.

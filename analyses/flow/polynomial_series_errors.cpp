@@ -8,6 +8,7 @@
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/kernels.hpp"
+#include "analyses/flow/operations/all.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/work.hpp"
 
@@ -238,18 +239,16 @@ double PolynomialSeries::slopeRounding(int i) const {
 
 /// Bounds of the defect of v' = u'·of (for sine, cosine, exponential, tanh), integrated over [0, θ], and of the row σ =
 /// 0. Rounding: a coefficient has N terms, one rounding in j·u_j and one in the division: γ_{N+2}, N ≤ weights.
-void PolynomialSeries::differentialErrors(int u, int of, int degree, double& e0, double& e1) const {
+PolynomialSeries::Errors PolynomialSeries::differentialErrors(int u, int of, int degree) const {
   const double norm = rest(u), weighted = weighted_[at(u)] - leading(u) * bounds::down;
-  e1 = tailTime(u, of);  // the row i = 0 of u meets s1[0] = 0
-  if (isFine(of)) {
-    e0 = productRounding(of, u, of, 1, 3);
-    return;
-  }
-  e0 = bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
-  if (monomials_->degree() > 0)
+  const double e1 = tailTime(u, of);  // the row i = 0 of u meets s1[0] = 0
+  if (isFine(of)) return {productRounding(of, u, of, 1, 3), e1};
+  double e0 = bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
+  if (isGraded())
     // The row σ = 0 rounds likewise, with the weights of its own (smaller) terms.
     e0 += tailDegree(u, of, degree, 1) + tailRow(u, of, degree) +
           bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
+  return {e0, e1};
 }
 
 /// Σ term(coefficient, g, i) over the kept coefficients of left·right, or of j·left_j and right.
@@ -351,99 +350,36 @@ void PolynomialSeries::productErrors(int node, int a, int b, double& e0, double&
   e1 = tailTime(a, b);
 }
 
-/// Sine, and of its cosine own0, own1: both from one skew system. The error's Euclidean norm grows by no more than both
-/// defects; what crosses from one to the other is turned by u', of which rest(u) is the integral.
-void PolynomialSeries::sineErrors(int node, double& e0, double& e1) {
-  const Plan& v = plan_[at(node)];
-  double c0 = 0, c1 = 0;
-  differentialErrors(v.a, node + 1, v.degree, e0, e1);
-  differentialErrors(v.a, node, v.degree, c0, c1);
-  e0 += pointError_[at(node)];
-  c0 += pointError_[at(node + 1)];
-  const double turned = rest(v.a), both0 = e0 + c0, both1 = e1 + c1;
-  e0 = std::min(both0, e0 + turned * both0);
-  e1 = std::min(both1, e1 + turned * both1);
-  own0_[at(node + 1)] = std::min(both0, c0 + turned * both0) * bounds::up + bounds::tiny;
-  own1_[at(node + 1)] = std::min(both1, c1 + turned * both1) * bounds::up;
-}
-
-/// tanh, and of its derivative by u own0, own1: κ = |s̃ - (1 - t̂²)|, t̂ = t̃ + tanh u_00 - t_00: the constants of both
-/// cancel but for their own errors, and the others are sums of N ≤ weights products, in which t_00 meets only what is
-/// not constant.
-void PolynomialSeries::tanhErrors(int node, double& e0, double& e1) {
-  const Plan& v = plan_[at(node)];
-  const double weighted = weightedRest(node);
-  const double kappa0 = pointError_[at(node + 1)] + 2 * pointError_[at(node)] * rest(node) +
-                        bounds::unit * weighted * (2 * leading(node) + weighted) +
-                        (monomials_->degree() > 0 ? tailDegree(node, node, v.degree, 0) : 0.0);
-  const double kappa1 = tailTime(node, node);
-  own0_[at(node + 1)] = kappa0 * bounds::up + bounds::tiny;
-  own1_[at(node + 1)] = kappa1 * bounds::up;
-  differentialErrors(v.a, node + 1, v.degree, e0, e1);
-  e0 += rest(v.a) * own0_[at(node + 1)];
-  e1 += rest(v.a) * own1_[at(node + 1)];
-}
-
 /// What a node adds to the errors of its operands.
 void PolynomialSeries::ownErrors(int node) {
   const Plan& v = plan_[at(node)];
-  double e0 = 0, e1 = 0;
-  const bool graded = monomials_->degree() > 0;
+  Errors e;
   switch (v.op) {
     case Op::state:
     case Op::parameter:
     case Op::time:
     case Op::constant:
-    case Op::cos:
-    case Op::sech2:
-    case Op::sign:
       return;
     case Op::solution:
       if (v.b == 0) solutionOwnErrors(node);
       return;
     case Op::add:
     case Op::sub:
-      e0 = sumRounding(node) + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
-      break;
-    case Op::abs:  // a product and, of the constant, a sum
-      e0 = (chords_[at(node)].isExact() ? 0.0 : 2 * bounds::unit * (norm_[at(node)] + norm_[at(v.a)])) +
-           (graded ? dropped(v.a, v.degree) : 0.0);
+      e.e0 = sumRounding(node) + (isGraded() ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
       break;
     case Op::neg:
-      e0 = graded ? dropped(v.a, v.degree) : 0.0;
+      e.e0 = isGraded() ? dropped(v.a, v.degree) : 0.0;
       break;
     case Op::mul:
     case Op::sqr:
-      productErrors(node, v.a, v.op == Op::sqr ? v.a : v.b, e0, e1);
+      productErrors(node, v.a, v.op == Op::sqr ? v.a : v.b, e.e0, e.e1);
       break;
-    case Op::recip:
-      e0 = productResidual(node, v.a, -1) + (graded ? tailDegree(node, v.a, v.degree, 0) : 0.0);
-      e1 = tailTime(node, v.a);
-      break;
-    case Op::sqrt:
-      e0 = productResidual(node, node, v.a) +
-           (graded ? tailDegree(node, node, v.degree, 0) + dropped(v.a, v.degree) : 0.0);
-      e1 = tailTime(node, node);
-      break;
-    case Op::exp:
-      differentialErrors(v.a, node, v.degree, e0, e1);
-      e0 += pointError_[at(node)];
-      break;
-    case Op::log:
-    case Op::atan:
-      e0 = quotientResidual(node);
-      if (graded) e0 += tailDegree(node, v.b, v.degree, 1) + tailRow(node, v.b, v.degree) + dropped(v.a, v.degree);
-      e1 = tailTime(node, v.b);
-      break;
-    case Op::sin:
-      sineErrors(node, e0, e1);
-      break;
-    case Op::tanh:
-      tanhErrors(node, e0, e1);
-      break;
+    default:
+      if (isTwin(v.op)) return;
+      e = withFunction<FlowFunction>(v.op, [&](auto f) { return f.ownErrors(*this, node); });
   }
-  own0_[at(node)] = e0 * bounds::up + bounds::tiny;
-  own1_[at(node)] = e1 * bounds::up;
+  own0_[at(node)] = e.e0 * bounds::up + bounds::tiny;
+  own1_[at(node)] = e.e1 * bounds::up;
 }
 
 }  // namespace gamut

@@ -6,6 +6,7 @@
 
 #include "analyses/flow/grade_kernels.hpp"
 #include "analyses/flow/kernels.hpp"
+#include "analyses/flow/operations/all.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/work.hpp"
 
@@ -28,34 +29,14 @@ void PolynomialSeries::planProducts() {
       case Op::sqr:
         add(v.a, v.a, x);
         break;
-      case Op::recip:
-        add(x, v.a, x);
-        break;
-      case Op::sqrt:
-        add(x, x, x);
-        break;
-      case Op::exp:
-        add(v.a, x, x, true);
-        break;
-      case Op::log:
-      case Op::atan:
-        add(x, v.b, x, true);
-        break;
-      case Op::sin:
-        add(v.a, x + 1, x, true);
-        add(v.a, x, x + 1, true);
-        break;
-      case Op::tanh:
-        add(v.a, x + 1, x, true);
-        add(x, x, x + 1);
-        break;
       case Op::solution: {
         const System& system = systems_[at(solutions_[at(v.a)].system)];
         for (int j = 0; j < system.size; ++j) add(system.entry(v.b, j), x - v.b + j, x);
         break;
       }
       default:
-        break;
+        if (isFunction(v.op) && !isTwin(v.op))
+          withFunction<FlowFunction>(v.op, [&](auto f) { f.products(x, v.a, v.b, add); });
     }
   }
 }
@@ -68,7 +49,8 @@ void PolynomialSeries::planGrades() {
   for (std::size_t x = 0; x < plan_.size(); ++x) {
     const Plan& v = plan_[x];
     isKept_[x] = static_cast<char>(!isOperation(v.op) || v.r != none || v.d != none);
-    if (v.op == Op::sqrt || v.op == Op::log || v.op == Op::atan) isKept_[at(v.a)] = 1;  // their residuals are measured
+    if (isFunction(v.op) && withFunction<FlowFunction>(v.op, [](auto f) { return f.measuresResidual; }))
+      isKept_[at(v.a)] = 1;
   }
   for (const Product& product : products_) isKept_[at(product.left)] = 1;
   for (const int node : outputs_) isKept_[at(node)] = 1;
@@ -275,74 +257,8 @@ void PolynomialSeries::computeLane(int node, int i, int q) {
     case Op::sqr:
       kernels::convolveLanes(series(v.a), 0, i, lane(v.a, 0), i, sum);
       return setLanes(out, [&](int l) { return out[l] + 2 * sum[l]; });
-    case Op::recip: {
-      const double inverse = series(node)[0];
-      kernels::convolveLanes(series(node), 0, i, lane(v.a, 0), i, out);
-      kernels::convolveLanes(series(v.a), 1, i, lane(node, 0), i, out);
-      return setLanes(out, [&](int l) { return -out[l] * inverse; });
-    }
-    case Op::sqrt: {
-      const double half = 0.5 / series(node)[0];
-      kernels::convolveLanes(series(node), 1, i, lane(node, 0), i, sum);
-      return setLanes(out, [&](int l) { return (of[l] - out[l] - 2 * sum[l]) * half; });
-    }
     default:
-      return computeFunctionLane(node, i, q);
-  }
-}
-
-/// Likewise of a function that obeys a differential equation.
-void PolynomialSeries::computeFunctionLane(int node, int i, int q) {
-  const Plan& v = plan_[at(node)];
-  const auto series = [&](int x) { return &f_[plan_[at(x)].f]; };  // of grade 0
-  const auto slope = [&](int x) { return &d_[plan_[at(x)].d]; };
-  const auto slopeLane = [&](int x) { return &slopes_[slopeAt_[at(x)]]; };
-  double* out = lane(node, i);
-  const double* of = lane(v.a, i);
-  switch (v.op) {
-    case Op::exp: {
-      if (i == 0) return setLanes(out, [&](int l) { return out[l] / q + of[l] * series(node)[0]; });
-      kernels::convolveLanes(slope(v.a), 1, i, lane(node, 0), i, out);
-      kernels::convolveLanes(series(node), 0, i - 1, slopeLane(v.a), i, out);
-      return setLanes(out, [&](int l) { return out[l] / i; });
-    }
-    case Op::log:
-    case Op::atan: {
-      const double inverse = 1 / series(v.b)[0];
-      if (i == 0) return setLanes(out, [&](int l) { return (of[l] - out[l] / q) * inverse; });
-      kernels::convolveLanes(slope(node), 1, i, lane(v.b, 0), i, out);
-      kernels::convolveLanes(series(v.b), 1, i - 1, slopeLane(node), i, out);
-      return setLanes(out, [&](int l) { return (of[l] - out[l] / i) * inverse; });
-    }
-    case Op::sin: {
-      double* cosine = lane(node + 1, i);
-      const double *s = series(node), *c = series(node + 1);
-      if (i == 0) {
-        setLanes(out, [&](int l) { return out[l] / q + of[l] * c[0]; });
-        return setLanes(cosine, [&](int l) { return -(cosine[l] / q + of[l] * s[0]); });
-      }
-      kernels::convolveLanes(slope(v.a), 1, i, lane(node + 1, 0), i, out);
-      kernels::convolveLanes(c, 0, i - 1, slopeLane(v.a), i, out);
-      kernels::convolveLanes(slope(v.a), 1, i, lane(node, 0), i, cosine);
-      kernels::convolveLanes(s, 0, i - 1, slopeLane(v.a), i, cosine);
-      setLanes(out, [&](int l) { return out[l] / i; });
-      return setLanes(cosine, [&](int l) { return -cosine[l] / i; });
-    }
-    case Op::tanh: {
-      double* s = lane(node + 1, i);
-      if (i == 0) {
-        setLanes(out, [&](int l) { return out[l] / q + of[l] * series(node + 1)[0]; });
-      } else {
-        kernels::convolveLanes(slope(v.a), 1, i, lane(node + 1, 0), i, out);
-        kernels::convolveLanes(series(node + 1), 0, i - 1, slopeLane(v.a), i, out);
-        setLanes(out, [&](int l) { return out[l] / i; });
-      }
-      double sum[lanes] = {};
-      kernels::convolveLanes(series(node), 0, i, lane(node, 0), i, sum);
-      return setLanes(s, [&](int l) { return -(s[l] + 2 * sum[l]); });
-    }
-    default:
-      return;
+      return withFunction<FlowFunction>(v.op, [&](auto f) { f.lane(*this, node, i, q); });
   }
 }
 

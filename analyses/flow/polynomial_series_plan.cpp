@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "analyses/flow/kernels.hpp"
+#include "analyses/flow/operations/all.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 
 namespace gamut {
@@ -29,7 +30,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   frameCount_ = monomials_->countUpTo(frameDegree_);
   planOrders(order);
   const auto& nodes = program.nodes();
-  hasKinks_ = std::ranges::any_of(nodes, [](const Node& node) { return node.op == Op::abs || node.op == Op::sign; });
+  hasKinks_ = std::ranges::any_of(nodes, [](const Node& node) { return !isSmooth(node.op); });
   isByGrades_ = !hasKinks_ && monomials_->pairs().size() >= manyPairs;
   if (isByGrades_ && order == 1 && !withFrame_) stride_ = 1;  // at one time
   planNodes(program, primaryOf(program, primaryOutputs));
@@ -87,7 +88,7 @@ void PolynomialSeries::planNodes(const Program& program, const std::vector<char>
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Plan v{nodes[i].op, nodes[i].a, nodes[i].b, 0, 0, primary[i] != 0, program.isInvariant(static_cast<int>(i)), false};
     v.degree = v.primary ? monomials_->degree() : frameDegree_;
-    isConvex_ = isConvex_ && v.op != Op::tanh && v.op != Op::abs && v.op != Op::sign;
+    if (isFunction(v.op)) isConvex_ = isConvex_ && withFunction<FlowFunction>(v.op, [](auto f) { return f.isConvex; });
     if (v.op == Op::sign && v.primary) jumps_.push_back(static_cast<int>(i));
     if (v.op == Op::constant) {
       v.constant = true;
@@ -124,18 +125,21 @@ void PolynomialSeries::planFactors() {
   };
   for (int i = 0; i < nodes_; ++i) {
     Plan& v = plan_[at(i)];
-    const bool isQuotient = v.op == Op::log || v.op == Op::atan;
     if (v.op == Op::mul && plan_[at(v.b)].invariant && !plan_[at(v.a)].invariant)
       std::swap(v.a, v.b);  // the invariant factor first
-    if (v.op == Op::mul || isQuotient) rightFactor(v.b);
-    if (v.op == Op::sqr || v.op == Op::recip) rightFactor(v.a);
-    if (v.op == Op::sqrt || v.op == Op::exp || v.op == Op::solution || twinOf(v.op) != v.op) rightFactor(i);
-    if (twinOf(v.op) != v.op) rightFactor(i + 1);
-    if (v.op == Op::exp || twinOf(v.op) != v.op) derivative(v.a);
-    if (isQuotient) derivative(i);
-    if (v.op != Op::recip && v.op != Op::sqrt && !isQuotient) continue;
-    inverseAt_[at(i)] = sizeInverse;
-    sizeInverse += at(v.count);
+    if (v.op == Op::mul) rightFactor(v.b);
+    if (v.op == Op::sqr) rightFactor(v.a);
+    if (v.op == Op::solution) rightFactor(i);
+    if (!isFunction(v.op) || isTwin(v.op)) continue;
+    withFunction<FlowFunction>(v.op, [&](auto f) {
+      f.products(i, v.a, v.b, [&](int left, int right, int /*target*/, bool isSlope = false) {
+        rightFactor(right);
+        if (isSlope) derivative(left);
+      });
+      if (!f.dividesByLeading) return;
+      inverseAt_[at(i)] = sizeInverse;
+      sizeInverse += at(v.count);
+    });
   }
   for (int i = 0; i < n_ * n_ && withFrame_; ++i) rightFactor(nodes_ + i);
   for (Plan& v : plan_) {
@@ -179,7 +183,8 @@ void PolynomialSeries::prepareThin() {
                      v.r == none   ? nullptr
                      : isByGrades_ ? &z_[v.z + at(stride_ - 1)]
                                    : &r_[v.r + at(stride_ - 1)],
-                     v.d == none ? nullptr : &d_[v.d], v.op == Op::abs ? &chords_[thin_.size()].slope : nullptr});
+                     v.d == none ? nullptr : &d_[v.d],
+                     thin_.size() < chords_.size() ? &chords_[thin_.size()].slope : nullptr});
   current_.assign(plan_.size(), 0.0);
   if (!withFrame_) {
     known_.assign(at(n_ * stride_), 0.0);

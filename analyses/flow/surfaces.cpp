@@ -20,8 +20,6 @@ using detail::at;
 
 namespace {
 
-bool bends(Op op) { return op == Op::sign || op == Op::abs; }
-
 /// Of each node, whether it depends on a state, and whether on a sign or an absolute value.
 struct Dependence {
   std::vector<char> moves, bends;
@@ -31,7 +29,7 @@ Dependence dependenceOf(const Program& f) {
   Dependence result;
   for (std::size_t i = 0; i < f.nodes().size(); ++i) {
     const Op op = f.nodes()[i].op;
-    bool moves = op == Op::state, isBent = bends(op);
+    bool moves = op == Op::state, isBent = !isSmooth(op);
     detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) {
       moves = moves || result.moves[at(operand)] != 0;
       isBent = isBent || result.bends[at(operand)] != 0;
@@ -47,7 +45,7 @@ std::vector<int> argumentsAmong(const Program& all, const std::vector<int>& node
   const Dependence on = dependenceOf(all);
   std::vector<int> arguments;
   for (const int node : nodes) {
-    if (!bends(all.nodes()[at(node)].op)) continue;
+    if (isSmooth(all.nodes()[at(node)].op)) continue;
     const int u = all.nodes()[at(node)].a;
     if (on.moves[at(u)] != 0 && on.bends[at(u)] == 0 && std::ranges::find(arguments, u) == arguments.end() &&
         !linearFormOf(all, u))

@@ -148,7 +148,7 @@ std::vector<char> functionsOfTime(const Program& f) {
 }  // namespace
 
 TimeKinks::TimeKinks(const Program& f, double horizon, double resolution) {
-  const auto isKink = [](const Node& node) { return node.op == Op::abs || node.op == Op::sign; };
+  const auto isKink = [](const Node& node) { return !isSmooth(node.op); };
   if (std::ranges::none_of(f.nodes(), isKink)) return;
   const std::vector<std::optional<Form>> forms = formsOf(f);
   const std::vector<char> isOfTime = functionsOfTime(f);

@@ -79,9 +79,9 @@ class Start {
     series_.setParameters(p);
     series_.solve(time, x);
     for (const Node& node : program_.nodes()) {
-      if (node.op == Op::sqrt || node.op == Op::log)
+      if (isOneSided(domainOf(node.op)))
         if (!(series_.at(node.a, 0).lower() > 0)) return false;
-      if (node.op == Op::abs || node.op == Op::sign || node.op == Op::recip)
+      if (!isSmooth(node.op) || domainOf(node.op) == Domain::nonzero)
         if (contains(series_.at(node.a, 0), 0.0)) return false;
     }
     return true;

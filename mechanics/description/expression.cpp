@@ -208,7 +208,7 @@ bool Expression::isSmooth() const {
   using enum Operation;
   return std::ranges::none_of(terms_, [](const Term& term) {
     return term.operation == abs || term.operation == sign || term.operation == min || term.operation == max ||
-           term.operation == where;
+           term.operation == where || (term.operation == function && !gamut::isSmooth(static_cast<Op>(term.index)));
   });
 }
 
@@ -249,7 +249,7 @@ bool Expression::holdsAt(std::size_t begin, std::size_t end, const Expression& f
                       if (own.operation == Operation::name) return names_[i] == formula.names_[j];
                       if (own.operation == Operation::constant)
                         return isEqual(constants_[i].enclosure, formula.constants_[j].enclosure);
-                      return own.operation != Operation::power || i == j;
+                      return (own.operation != Operation::power && own.operation != Operation::function) || i == j;
                     });
 }
 

@@ -25,6 +25,7 @@
 
 #include "mechanics/description/units.hpp"
 #include "scalars/interval.hpp"
+#include "scalars/operations/all.hpp"
 #include "scalars/traits.hpp"
 
 namespace gamut {
@@ -103,10 +104,9 @@ class Expression {
     multiply,
     divide,
     negate,
-    power,  // index: the exponent
+    power,     // index: the exponent
+    function,  // index: an Op
     sqrt,
-    exp,
-    log,
     sin,
     cos,
     tan,
@@ -115,7 +115,6 @@ class Expression {
     atan,
     sinh,
     cosh,
-    tanh,
     abs,
     sign,
     atan2,
@@ -128,7 +127,8 @@ class Expression {
   /// Postfix: operands come before what takes them.
   struct Term {
     Operation operation;
-    int index = 0, column = 0;  // index: of a constant, a name; an exponent; 1 for the subtraction of a comparison
+    int index = 0,
+        column = 0;  // index: of a constant, a name; an Op; an exponent; 1 for the subtraction of a comparison
   };
   struct Constant {
     Interval enclosure;
@@ -154,8 +154,8 @@ class Expression {
 /// Long, since it is a list: a line or two for each operation.
 template <class S, class ValueOf, class ConstantOf>
 S Expression::evaluate(const ValueOf& valueOf, const ConstantOf& constantOf) const {
-  using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::hypot, std::log,
-      std::max, std::min, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+  using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::hypot, std::max, std::min,
+      std::pow, std::sin, std::sinh, std::sqrt, std::tan;
   std::vector<S> values;
   for (const Term& term : terms_) {
     if (term.operation == Operation::constant) {
@@ -195,14 +195,13 @@ S Expression::evaluate(const ValueOf& valueOf, const ConstantOf& constantOf) con
       case Operation::power:
         x = term.index == 2 ? square(y) : S(pow(y, term.index));
         break;
+      case Operation::function:
+        withFunction(static_cast<Op>(term.index), [&](auto f) {
+          if constexpr (requires { f.of(y); }) x = f.of(y);
+        });
+        break;
       case Operation::sqrt:
         x = sqrt(y);
-        break;
-      case Operation::exp:
-        x = exp(y);
-        break;
-      case Operation::log:
-        x = log(y);
         break;
       case Operation::sin:
         x = sin(y);
@@ -227,9 +226,6 @@ S Expression::evaluate(const ValueOf& valueOf, const ConstantOf& constantOf) con
         break;
       case Operation::cosh:
         x = cosh(y);
-        break;
-      case Operation::tanh:
-        x = tanh(y);
         break;
       case Operation::abs:
         x = abs(y);

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace gamut {
 
@@ -47,16 +49,36 @@ class ExpressionParser {
 
  private:
   using Operation = Expression::Operation;
-  struct Function {
+  struct Called {
     std::string_view name;
     Operation operation;
+    int index = 0;  // Operation::function: an Op
   };
-  static constexpr Function functions[] = {
-      {"sqrt", Operation::sqrt},   {"exp", Operation::exp},   {"log", Operation::log},     {"sin", Operation::sin},
-      {"cos", Operation::cos},     {"tan", Operation::tan},   {"asin", Operation::asin},   {"acos", Operation::acos},
-      {"atan", Operation::atan},   {"sinh", Operation::sinh}, {"cosh", Operation::cosh},   {"tanh", Operation::tanh},
-      {"abs", Operation::abs},     {"sign", Operation::sign}, {"where", Operation::where}, {"atan2", Operation::atan2},
-      {"hypot", Operation::hypot}, {"min", Operation::min},   {"max", Operation::max}};
+  /// In the order in which messages list them; behind them the functions of programs that have no place here.
+  static const std::vector<Called>& functions() {
+    static constexpr Called listed[] = {
+        {"sqrt", Operation::sqrt},   {"exp", Operation::function}, {"log", Operation::function},
+        {"sin", Operation::sin},     {"cos", Operation::cos},      {"tan", Operation::tan},
+        {"asin", Operation::asin},   {"acos", Operation::acos},    {"atan", Operation::atan},
+        {"sinh", Operation::sinh},   {"cosh", Operation::cosh},    {"tanh", Operation::function},
+        {"abs", Operation::abs},     {"sign", Operation::sign},    {"where", Operation::where},
+        {"atan2", Operation::atan2}, {"hypot", Operation::hypot},  {"min", Operation::min},
+        {"max", Operation::max}};
+    static const std::vector<Called> all = [] {
+      std::vector<Called> known(std::begin(listed), std::end(listed));
+      for (int i = 0; i < opCount; ++i) {
+        const Op op = static_cast<Op>(i);
+        if (!isFunction(op) || !withFunction(op, [](auto f) { return f.isInFormulas; })) continue;
+        const auto own = std::ranges::find(known, nameOf(op), &Called::name);
+        if (own == known.end())
+          known.push_back({nameOf(op), Operation::function, i});
+        else if (own->operation == Operation::function)
+          own->index = i;
+      }
+      return known;
+    }();
+    return all;
+  }
   /// As other languages call them.
   using OtherFunction = std::pair<std::string_view, std::string_view>;
   static constexpr OtherFunction otherFunctions[] = {{"if", "where"},    {"ln", "log"},      {"sgn", "sign"},
@@ -287,13 +309,13 @@ class ExpressionParser {
     const std::string word(text_.substr(position_, wordLength()));
     position_ += word.size();
     const Amount* unit = unitOf(word);
-    const auto* function = std::ranges::find(functions, word, &Function::name);
+    const auto function = std::ranges::find(functions(), word, &Called::name);
     if (word == "pi" || word == "π") {
       hasNumber_ = true;
       pushConstant({1, 1, {}}, at);
       last_ = Piece::number;
-    } else if (here() == '(' && (function != std::end(functions) || unit == nullptr)) {
-      if (function == std::end(functions)) refuseFunction(word, at);
+    } else if (here() == '(' && (function != functions().end() || unit == nullptr)) {
+      if (function == functions().end()) refuseFunction(word, at);
       readCall(*function, at);
     } else if (unit != nullptr && (word != "t" || followsNumber)) {
       pushConstant(*unit, at);
@@ -313,7 +335,7 @@ class ExpressionParser {
 
   [[noreturn]] static void refuseFunction(const std::string& word, int at) {
     std::vector<std::string> known;
-    for (const Function& f : functions) known.emplace_back(f.name);
+    for (const Called& f : functions()) known.emplace_back(f.name);
     const auto other = std::ranges::find(otherFunctions, word, &OtherFunction::first);
     const std::string nearest =
         other != std::end(otherFunctions) ? std::string(other->second) : nearestName(word, known);
@@ -322,7 +344,7 @@ class ExpressionParser {
                     nearest.empty() ? all : fmt::format("'{}'? ({})", nearest, all));
   }
 
-  void readCall(const Function& function, int at) {
+  void readCall(const Called& function, int at) {
     const int wanted = Expression::operands(function.operation);
     take("(");
     for (int i = 0; i < wanted; ++i) {
@@ -336,7 +358,7 @@ class ExpressionParser {
                          : wanted == 2 ? "two numbers"
                                        : "a condition and two numbers"));
     }
-    push(function.operation, 0, at);
+    push(function.operation, function.index, at);
     last_ = Piece::other;
     hasNumber_ = true;
   }

@@ -4,10 +4,12 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/program/program.hpp"
+#include "scalars/recorded.hpp"
 
 namespace gamut {
 
@@ -22,11 +24,13 @@ std::vector<S> evaluate(const Program& f, const std::vector<S>& x, const std::ve
   };
   expect("states", f.states(), x.size());
   expect("parameters", f.parameters(), p.size());
-  Evaluator<S> evaluator(f);
-  evaluator.setParameters(p);
-  std::vector<S> y(detail::at(f.outputs()), S(0.0));
-  evaluator(t, std::span<const S>(x), std::span<S>(y));
-  return y;
+  if constexpr (std::is_same_v<S, Recorded>) {
+    return written(f, x, p, t);
+  } else {
+    Evaluator<S> evaluator(f);
+    evaluator.setParameters(p);
+    return evaluator(t, x);
+  }
 }
 
 }  // namespace gamut

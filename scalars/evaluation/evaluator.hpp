@@ -3,13 +3,12 @@
 #pragma once
 
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "scalars/algebra/linear_system.hpp"
-#include "scalars/elementary/vector_functions.hpp"
 #include "scalars/evaluation/tape.hpp"
 #include "scalars/index.hpp"
+#include "scalars/operations/all.hpp"
 #include "scalars/program/program.hpp"
 #include "scalars/traits.hpp"
 
@@ -53,7 +52,6 @@ class Evaluator {
 
  private:
   void run(const std::vector<Instruction>& instructions) {  // long: a case an operation, in one loop that keeps `acc`
-    using std::abs, std::atan, std::exp, std::log, std::sqrt, std::tanh;
     S* const slots = slot_.data();
     S acc(0.0);
     for (const Instruction& i : instructions) {
@@ -93,30 +91,13 @@ class Evaluator {
         case TapeOp::reciprocal:
           acc = S(1.0) / a;
           break;
-        case TapeOp::squareRoot:
-          acc = sqrt(a);
-          break;
-        case TapeOp::exponential:
-          acc = exp(a);
-          break;
-        case TapeOp::logarithm:
-          acc = log(a);
-          break;
-        case TapeOp::arcTangent:
-          acc = atan(a);
-          break;
-        case TapeOp::absolute:
-          acc = abs(a);
-          break;
-        case TapeOp::sign:
-          acc = signOf(a);
-          break;
-        case TapeOp::sineCosine:
-          sineAndCosine(a, acc, slots[i.b]);
-          break;
-        case TapeOp::hyperbolicTangent:
-          acc = tanh(a);
-          slots[i.b] = S(1.0) - square(acc);
+        case TapeOp::function:
+          withFunction(i.function, [&](auto f) {
+            if constexpr (requires { f.ofSample(a, acc, slots[i.b]); })
+              f.ofSample(a, acc, slots[i.b]);
+            else
+              evaluate(f, a, acc, slots[i.b]);
+          });
           break;
         case TapeOp::factorise:
           factorise(detail::at(i.result));
@@ -126,23 +107,6 @@ class Evaluator {
           break;
       }
       if (i.stores) slots[i.result] = acc;
-    }
-  }
-
-  /// Both functions of a, which may lie where the cosine goes.
-  static void sineAndCosine(const S& a, S& s, S& c) {
-    using std::cos, std::sin;
-    if constexpr (std::is_same_v<S, double>) {
-      const SineCosine both = sineCosine(a);
-      s = both.sine;
-      c = both.cosine;
-    } else if constexpr (requires { sinCos(a).sin; }) {
-      const auto both = sinCos(a);
-      s = both.sin;
-      c = both.cos;
-    } else {
-      s = sin(a);
-      c = cos(a);
     }
   }
 

@@ -2,10 +2,9 @@
 #include "scalars/evaluation/sample_pack.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
-#include "scalars/elementary/vector_functions.hpp"
+#include "scalars/operations/all.hpp"
 
 namespace gamut {
 
@@ -30,40 +29,23 @@ using namespace detail;
 template <class V>
 constexpr int block = std::min(8, packWidth / lanes<V>);
 
-/// result = function(a), out of line, so that the accumulator of the other instructions stays in registers.
-void callFunction(TapeOp op, std::span<const double> a, std::span<double> result) {
-  switch (op) {
-    case TapeOp::exponential:
-      std::ranges::transform(a, result.begin(), [](double x) { return std::exp(x); });
-      break;
-    case TapeOp::logarithm:
-      std::ranges::transform(a, result.begin(), [](double x) { return std::log(x); });
-      break;
-    case TapeOp::arcTangent:
-      std::ranges::transform(a, result.begin(), [](double x) { return std::atan(x); });
-      break;
-    case TapeOp::absolute:
-      std::ranges::transform(a, result.begin(), [](double x) { return std::fabs(x); });
-      break;
-    case TapeOp::sign:
-      std::ranges::transform(a, result.begin(), [](double x) { return signOf(x); });
-      break;
-    default:
-      std::ranges::transform(a, result.begin(), [](double x) { return std::sqrt(x); });
-      break;
-  }
+/// result = function(a), and where it has a twin that in `second`, which may be a: out of line, so that the accumulator
+/// of the other instructions stays in registers.
+void callFunction(Op op, VectorUnit unit, std::span<const double> a, std::span<double> result,
+                  std::span<double> second) {
+  withFunction(op, [&](auto f) {
+    if constexpr (requires { f.ofPack(unit, a, result, second); }) {
+      f.ofPack(unit, a, result, second);
+    } else {
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        const double x = a[i];  // which may lie where the result goes
+        evaluate(f, x, result[i], second[i]);
+      }
+    }
+  });
 }
 
 constexpr int triangular(int i, int j) { return i * (i + 1) / 2 + j; }
-
-/// Both results of the instruction; its operand may lie where either goes.
-void callTanh(std::span<const double> a, std::span<double> result, std::span<double> slope) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double t = std::tanh(a[i]);
-    slope[i] = 1.0 - t * t;
-    result[i] = t;
-  }
-}
 
 #define GAMUT_FOR_GROUP _Pragma("GCC unroll 4") for (int j = 0; j < Group<V>::size; ++j)
 
@@ -223,21 +205,8 @@ GAMUT_INLINE void runBlock(const PackRun& pack, const Instruction* i, const Inst
       case caseOf(TapeOp::minusProduct, true):
         GAMUT_ACCUMULATE_UNIFORM(acc[j] - left * right);
       // These store their results themselves and leave no accumulator behind.
-      case caseOf(TapeOp::squareRoot):
-      case caseOf(TapeOp::exponential):
-      case caseOf(TapeOp::logarithm):
-      case caseOf(TapeOp::arcTangent):
-      case caseOf(TapeOp::absolute):
-      case caseOf(TapeOp::sign):
-        callFunction(i->op, span(a), span(result));
-        GAMUT_FOR_BLOCK acc[j] = V{};
-        continue;
-      case caseOf(TapeOp::sineCosine):
-        sineCosine(pack.unit, span(a), span(result), span(b));
-        GAMUT_FOR_BLOCK acc[j] = V{};
-        continue;
-      case caseOf(TapeOp::hyperbolicTangent):
-        callTanh(span(a), span(result), span(b));
+      case caseOf(TapeOp::function):
+        callFunction(i->function, pack.unit, span(a), span(result), span(b));
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;
       case caseOf(TapeOp::factorise):

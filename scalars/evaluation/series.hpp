@@ -7,6 +7,7 @@
 
 #include "scalars/algebra/linear_system.hpp"
 #include "scalars/index.hpp"
+#include "scalars/operations/all.hpp"
 #include "scalars/program/program.hpp"
 #include "scalars/traits.hpp"
 
@@ -53,6 +54,36 @@ class Series {
       for (int node = 0; node < nodeCount(); ++node) compute(node, i);
   }
 
+  // What the recursions of functions are made of (operations/function.hpp).
+
+  /// Σ_{j=from}^{to} a_j b_{i-j}
+  S convolution(int a, int b, int i, int from, int to) {
+    S sum(0.0), term(0.0);
+    for (int j = from; j <= to; ++j) sum += (term = at(a, j)) *= at(b, i - j);  // in place: numbers may be long
+    return sum;
+  }
+  /// Σ_{j=1}^{to} j a_j b_{i-j} / i
+  S slopes(int a, int b, int i, int to) {
+    S sum(0.0), term(0.0);
+    for (int j = 1; j <= to; ++j) {
+      term = S(static_cast<double>(j));
+      sum += (term *= at(a, j)) *= at(b, i - j);
+    }
+    return sum / S(static_cast<double>(i));
+  }
+  static S difference(const S& x, const S& y) { return x - y; }
+  static S quotient(const S& x, const S& y) { return x / y; }
+  static S half(const S& x) { return S(0.5) * x; }
+  /// The sign of node a behind the expansion point, as far as its orders up to i tell.
+  S after(int a, int i) {
+    S sign = signOf(at(a, 0));
+    if constexpr (requires {
+                    { sign == S(0.0) } -> std::convertible_to<bool>;
+                  })
+      for (int j = 1; j <= i && sign == S(0.0); ++j) sign = signOf(at(a, j));
+    return sign;
+  }
+
  private:
   int nodeCount() const { return static_cast<int>(program_->nodes().size()); }
 
@@ -61,20 +92,6 @@ class Series {
     at(time, 0) = t0;
     if (size_ > 1) at(time, 1) = S(1.0);
     isFactorised_.assign(systems_.size(), 0);
-  }
-
-  S convolution(int a, int b, int i, int from, int to) {  // Σ_{j=from}^{to} a_j b_{i-j}
-    S sum(0.0), term(0.0);
-    for (int j = from; j <= to; ++j) sum += (term = at(a, j)) *= at(b, i - j);  // in place: numbers may be long
-    return sum;
-  }
-  S weighted(int a, int b, int i, int to) {  // Σ_{j=1}^{to} j a_j b_{i-j}
-    S sum(0.0), term(0.0);
-    for (int j = 1; j <= to; ++j) {
-      term = S(static_cast<double>(j));
-      sum += (term *= at(a, j)) *= at(b, i - j);
-    }
-    return sum;
   }
 
   void compute(int node, int i) {
@@ -105,64 +122,21 @@ class Series {
         at(node, i) = sum;
         break;
       }
-      case Op::abs:  // as just after the expansion point
-        at(node, i) = after(n.a, i) * at(n.a, i);
-        break;
-      case Op::sign:
-        at(node, i) = i == 0 ? after(n.a, i) : S(0.0);
-        break;
       case Op::solution:
         if (n.b == 0) computeSolution(node, i);
         break;
       default:
-        computeFunction(node, i);
+        if (!isTwin(n.op)) withFunction(n.op, [&](auto f) { computeFunction(f, node, i); });
     }
   }
 
-  /// Of what obeys an equation of its own; cos and sech² are computed with their twins.
-  void computeFunction(int node, int i) {
-    using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
-    const Node& n = program_->nodes()[detail::at(node)];
-    const S k(static_cast<double>(i));
-    switch (n.op) {
-      case Op::recip:  // r a = 1
-        at(node, i) = (i == 0 ? S(1.0) : -convolution(node, n.a, i, 0, i - 1)) / at(n.a, 0);
-        break;
-      case Op::sqrt:  // r r = a
-        at(node, i) = i == 0 ? S(sqrt(at(n.a, 0)))
-                             : S((at(n.a, i) - convolution(node, node, i, 1, i - 1)) / (S(2.0) * at(node, 0)));
-        break;
-      case Op::exp:  // r' = a' r
-        at(node, i) = i == 0 ? S(exp(at(n.a, 0))) : S(weighted(n.a, node, i, i) / k);
-        break;
-      case Op::log:
-      case Op::atan:  // r' b = a'
-        if (i == 0)
-          at(node, 0) = n.op == Op::log ? S(log(at(n.a, 0))) : S(atan(at(n.a, 0)));
-        else
-          at(node, i) = (at(n.a, i) - weighted(node, n.b, i, i - 1) / k) / at(n.b, 0);
-        break;
-      case Op::sin:  // s' = a' c; the cosine is computed with it, c' = -a' s
-        at(node, i) = i == 0 ? S(sin(at(n.a, 0))) : S(weighted(n.a, node + 1, i, i) / k);
-        at(node + 1, i) = i == 0 ? S(cos(at(n.a, 0))) : S(-weighted(n.a, node, i, i) / k);
-        break;
-      case Op::tanh:  // t' = a' s; s = 1 - t² is computed with it
-        at(node, i) = i == 0 ? S(tanh(at(n.a, 0))) : S(weighted(n.a, node + 1, i, i) / k);
-        at(node + 1, i) = i == 0 ? S(S(1.0) - square(at(node, 0))) : S(-convolution(node, node, i, 0, i));
-        break;
-      default:
-        break;
-    }
-  }
-
-  /// The sign of node a behind the expansion point, as far as its orders up to i tell.
-  S after(int a, int i) {
-    S sign = signOf(at(a, 0));
-    if constexpr (requires {
-                    { sign == S(0.0) } -> std::convertible_to<bool>;
-                  })
-      for (int j = 1; j <= i && sign == S(0.0); ++j) sign = signOf(at(a, j));
-    return sign;
+  template <class F>
+  void computeFunction(F f, int x, int i) {
+    const Node& n = program_->nodes()[detail::at(x)];
+    if (i == 0)
+      gamut::evaluate(f, at(n.a, 0), at(x, 0), at(hasTwin(n.op) ? x + 1 : x, 0));
+    else if constexpr (requires { f.order(*this, x, n.a, n.b, i); })
+      f.order(*this, x, n.a, n.b, i);
   }
 
   /// A_0 x_i = r_i - Σ_{j=1}^{i} A_j x_{i-j}: one factorisation for all orders.

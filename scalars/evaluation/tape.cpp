@@ -16,34 +16,14 @@ constexpr int longestChain = 8;  // instructions between two stores: the operand
 bool isSum(Op op) { return op == Op::add || op == Op::sub; }
 
 TapeOp unary(Op op) {
-  switch (op) {
-    case Op::neg:
-      return TapeOp::negative;
-    case Op::sqr:
-      return TapeOp::square;
-    case Op::recip:
-      return TapeOp::reciprocal;
-    case Op::sqrt:
-      return TapeOp::squareRoot;
-    case Op::exp:
-      return TapeOp::exponential;
-    case Op::log:
-      return TapeOp::logarithm;
-    case Op::atan:
-      return TapeOp::arcTangent;
-    case Op::abs:
-      return TapeOp::absolute;
-    case Op::sign:
-      return TapeOp::sign;
-    case Op::tanh:
-      return TapeOp::hyperbolicTangent;
-    default:
-      return TapeOp::sineCosine;
-  }
+  return op == Op::neg     ? TapeOp::negative
+         : op == Op::sqr   ? TapeOp::square
+         : op == Op::recip ? TapeOp::reciprocal
+                           : TapeOp::function;
 }
 
 /// A second result goes to slot b.
-bool hasTwin(TapeOp op) { return op == TapeOp::sineCosine || op == TapeOp::hyperbolicTangent; }
+bool hasTwin(const Instruction& i) { return i.op == TapeOp::function && gamut::hasTwin(i.function); }
 
 /// Instructions whose a and b are nodes, from the first to the one that stores. A step is known by the node that it
 /// stores, the first of its twins; the factorisation of matrix m by the number m behind all nodes.
@@ -84,8 +64,7 @@ class TapeWriter {
   const LinearSolution& solution(int i) const { return program_.solutions()[at(node(i).a)]; }
   const LinearMatrix& matrix(int m) const { return program_.matrices()[at(m)]; }
 
-  /// The node whose step computes node i: a cosine comes from its sine's, a sech2 from its tanh's, a component with
-  /// component 0.
+  /// The node whose step computes node i: a cosine comes from its sine's, a component with component 0.
   int source(int i) const {
     if (isTwin(node(i).op)) return i - 1;
     return node(i).op == Op::solution ? i - node(i).b : i;
@@ -153,7 +132,7 @@ class TapeWriter {
 
   bool isAbsorbedProduct(int i) const { return node(i).op == Op::mul && absorbed_[at(i)]; }
 
-  static Instruction instruction(TapeOp op, int a, int b) { return {op, false, false, 0, a, b}; }
+  static Instruction instruction(TapeOp op, int a, int b) { return {.op = op, .stores = false, .a = a, .b = b}; }
 
   /// acc ± node i, a product if only this sum uses it.
   Instruction term(int i, bool negative) const {
@@ -217,7 +196,7 @@ class TapeWriter {
     else if (n.op == Op::mul)
       result.chain.push_back(instruction(TapeOp::product, n.a, n.b));
     else
-      result.chain.push_back(instruction(unary(n.op), n.a, n.a));
+      result.chain.push_back({.op = unary(n.op), .stores = false, .function = n.op, .a = n.a, .b = n.a});
     result.chain.back().stores = true;
     for (Instruction& part : result.chain) markUniform(part);
     for (const Instruction& part : result.chain) result.reads.insert(result.reads.end(), {part.a, part.b});
@@ -348,7 +327,7 @@ class TapeWriter {
       for (std::size_t part = 0; part < chain.size(); ++part)
         chain[part].a = reads[2 * part], chain[part].b = reads[2 * part + 1];
       chain.back().result = slot_[at(step.id)];
-      if (hasTwin(chain.back().op)) chain.back().b = slot_[at(step.id + 1)];
+      if (hasTwin(chain.back())) chain.back().b = slot_[at(step.id + 1)];
     }
   }
 
@@ -424,7 +403,7 @@ Tape::Tape(const Program& program) { TapeWriter(program, *this).write(); }
 int Tape::operations() const {
   int operations = 0;
   for (const Instruction& i : instructions_) {
-    const bool isTwo = i.op == TapeOp::plusProduct || i.op == TapeOp::minusProduct || hasTwin(i.op);
+    const bool isTwo = i.op == TapeOp::plusProduct || i.op == TapeOp::minusProduct || hasTwin(i);
     if (i.op == TapeOp::factorise) {
       operations += systems_[at(i.result)].operations.factorisation;
     } else if (i.op == TapeOp::solution) {

@@ -29,22 +29,16 @@ enum class TapeOp : std::uint8_t {
   negative,      ///< acc = -a
   square,        ///< acc = a²
   reciprocal,    ///< acc = 1 / a
-  squareRoot,
-  exponential,
-  logarithm,
-  arcTangent,
-  absolute,
-  sign,
-  sineCosine,         ///< acc = sin a, and cos a goes to slot b
-  hyperbolicTangent,  ///< acc = tanh a, and 1 - acc² goes to slot b
-  factorise,          ///< the matrix of system number `result`, for the solutions that follow
-  solution,           ///< solution number `result`; neither of the two reads or leaves an accumulator
+  function,      ///< acc = function(a); of twins acc is the first, and the second goes to slot b
+  factorise,     ///< the matrix of system number `result`, for the solutions that follow
+  solution,      ///< solution number `result`; neither of the two reads or leaves an accumulator
 };
 
 struct Instruction {
   TapeOp op;
-  bool stores;             ///< the accumulator goes to slot `result` afterwards
-  bool isUniform = false;  ///< b is the same whatever the parameters and the state are; it is a for plus and minus
+  bool stores;              ///< the accumulator goes to slot `result` afterwards
+  bool isUniform = false;   ///< b is the same whatever the parameters and the state are; it is a for plus and minus
+  Op function = Op::state;  ///< which, where op is TapeOp::function
   std::int32_t result = 0;
   std::int32_t a = 0;
   std::int32_t b = 0;  ///< a where the operation has one operand

@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "scalars/operations/all.hpp"
 #include "scalars/program/directions.hpp"
 
 namespace gamut {
@@ -31,39 +32,15 @@ int chained(Recorder& r, int i, bool second, int d) {
       const int product = r.mul(n.a, d);
       return r.mul(r.constant(2.0), product);
     }
-    case Op::recip:  // (1/a)' = -1/a²
-      return r.neg(r.mul(r.sqr(i), d));
-    case Op::sqrt: {  // (√a)' = 1/(2√a)
-      const int inverse = r.recip(i);
-      return r.mul(r.mul(r.constant(0.5), inverse), d);
-    }
-    case Op::exp:
-      return r.mul(i, d);
-    case Op::log:  // 1/a
-      return r.mul(r.recip(n.a), d);
-    case Op::atan:  // 1/(1+a²)
-      return r.mul(r.recip(n.b), d);
-    case Op::sin:
-      return r.mul(i + 1, d);
-    case Op::cos:
-      return r.neg(r.mul(i - 1, d));
-    case Op::tanh:
-      return r.mul(i + 1, d);
-    case Op::sech2: {  // (1 - t²)' = -2 t t', t' = sech²
-      const int product = r.mul(i - 1, i);
-      return r.mul(r.constant(-2.0), r.mul(product, d));
-    }
-    case Op::abs:
-      return r.mul(r.sign(n.a), d);
     case Op::state:
     case Op::parameter:
     case Op::time:
     case Op::constant:
-    case Op::sign:
     case Op::solution:  // as a whole, below
-      break;
+      return zero;
+    default:
+      return withFunction(n.op, [&](auto f) { return f.derivative(r, i, n.a, n.b, d); });
   }
-  return zero;
 }
 
 int sum(Recorder& r, int a, int b) { return a < 0 ? b : b < 0 ? a : r.add(a, b); }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <ostream>
 
+#include "scalars/operations/all.hpp"
 #include "scalars/program/passes.hpp"
 #include "scalars/program/program_text.hpp"
 
@@ -183,10 +184,14 @@ class Printer {
         return {operand(n.a, atom) + "^2", power};
       case Op::recip:
         return {"1 / " + operand(n.a, power), product};
-      case Op::sech2:
-        return {"sech(" + formulas_[at(n.a)].text + ")^2", power};
+      case Op::solution:
+        return {};  // written by writeSolution
       default:
-        return {std::string(nameOf(n.op)) + '(' + formulas_[at(n.a)].text + ')'};
+        return withFunction(n.op, [&](auto f) -> Formula {
+          if (!f.before.empty())
+            return {std::string(f.before) + formulas_[at(n.a)].text + std::string(f.behind), power};
+          return {std::string(nameOf(n.op)) + '(' + formulas_[at(n.a)].text + ')'};
+        });
     }
   }
 

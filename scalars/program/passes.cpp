@@ -31,7 +31,7 @@ constexpr Pass table[] = {
 /// How many times each node is used, as an output included.
 std::vector<int> usesOf(const Program& program) {
   std::vector<int> uses(program.nodes().size(), 0);
-  for (int i = 0; i < static_cast<int>(uses.size()); ++i)  // denominators of log and atan too: derivatives need them
+  for (int i = 0; i < static_cast<int>(uses.size()); ++i)  // denominators too: derivatives need them
     detail::forEachOperand(program.table(), i, [&](int operand) { ++uses[at(operand)]; });
   for (int output : program.outputNodes()) ++uses[at(output)];
   return uses;

@@ -4,15 +4,26 @@
 #include <algorithm>
 #include <array>
 
+#include "scalars/operations/all.hpp"
 #include "scalars/program/differentiation.hpp"
 
 namespace gamut {
 
 std::string_view nameOf(Op op) {
+#define GAMUT_NAME(name) #name,
   static constexpr std::array<std::string_view, opCount> names{
-      "state", "parameter", "time", "constant", "add", "sub",  "neg",   "mul", "sqr",  "recip",   "sqrt",
-      "exp",   "log",       "atan", "sin",      "cos", "tanh", "sech2", "abs", "sign", "solution"};
+      "state", "parameter", "time", "constant", "add",
+      "sub",   "neg",       "mul",  "sqr",      GAMUT_FUNCTIONS(GAMUT_NAME) "solution"};
+#undef GAMUT_NAME
   return names[static_cast<std::size_t>(op)];
+}
+
+Domain domainOf(Op op) {
+  return isFunction(op) ? withFunction(op, [](auto f) { return f.domain; }) : Domain::everywhere;
+}
+
+bool isSmooth(Op op) {
+  return !isFunction(op) || withFunction(op, [](auto f) { return f.isSmooth; });
 }
 
 namespace detail {

@@ -6,61 +6,13 @@
 
 #include <cstdint>
 #include <iosfwd>
-#include <string_view>
 #include <vector>
 
 #include "scalars/index.hpp"
 #include "scalars/interval.hpp"
+#include "scalars/operations/op.hpp"
 
 namespace gamut {
-
-/// The operations of a Program. `a` and `b` of a Node are node numbers, except for state, parameter and constant, where
-/// `a` counts states, parameters or constants.
-enum class Op : std::uint8_t {
-  state,      ///< x[a]
-  parameter,  ///< p[a]
-  time,       ///< t
-  constant,   ///< constants[a], an enclosed real number
-  add,        ///< a + b
-  sub,        ///< a - b
-  neg,        ///< -a
-  mul,        ///< a * b
-  sqr,        ///< a * a
-  recip,      ///< 1 / a
-  sqrt,       ///< square root of a
-  exp,        ///< exponential of a
-  log,        ///< natural logarithm of a; b = a, the denominator of its derivative
-  atan,       ///< arc tangent of a; b is the node 1 + a*a, the denominator of its derivative
-  sin,        ///< sine of a; the next node is always the cosine of the same a
-  cos,        ///< cosine of a; the node before is always the sine of the same a
-  tanh,       ///< hyperbolic tangent of a; the next node is always the sech2 of the same a
-  sech2,      ///< 1 - tanh² a, the derivative of tanh; the node before is always the tanh of the same a
-  abs,        ///< |a|; its derivative is sign a
-  sign,       ///< -1, 0 or 1 as a is below, at or above 0; its derivative is 0. In ẋ = f it stands for every value of
-              ///< [-1, 1] where a is 0, as in Filippov's solutions
-  solution,   ///< component b of solutions()[a]; the components are nodes in a row, component 0 first
-};
-
-/// How many operations Op has.
-constexpr int opCount = static_cast<int>(Op::solution) + 1;
-
-/// "add", "sub", ...
-std::string_view nameOf(Op op);
-/// True unless op is an input or a constant.
-constexpr bool isOperation(Op op) {
-  return op != Op::state && op != Op::parameter && op != Op::time && op != Op::constant;
-}
-/// The number of nodes a, b from which op's value is computed: 0, 1 or 2 (the denominators of log and atan do not
-/// count; a solution has its operands in a LinearSolution, forEachOperand knows them).
-constexpr int operandsOf(Op op) {
-  return !isOperation(op) || op == Op::solution ? 0 : op == Op::add || op == Op::sub || op == Op::mul ? 2 : 1;
-}
-
-/// The operation of the node that always follows one of `op`, on the same operand, and is computed with it; `op` itself
-/// if there is none.
-constexpr Op twinOf(Op op) { return op == Op::sin ? Op::cos : op == Op::tanh ? Op::sech2 : op; }
-/// True for the second of such a pair.
-constexpr bool isTwin(Op op) { return op == Op::cos || op == Op::sech2; }
 
 struct Node {
   Op op;
@@ -113,7 +65,7 @@ struct SolvingOperations {
 };
 SolvingOperations solvingOperations(const NodeTable& table, const LinearMatrix& matrix);
 
-/// visit(node) for every node from which node i's value is computed, log's and atan's denominators included. Component
+/// visit(node) for every node from which node i's value is computed, denominators of derivatives included. Component
 /// 0 of a solution has the operands of the whole, the others have component 0.
 template <class Visit>
 void forEachOperand(const NodeTable& table, int i, Visit visit) {
@@ -137,7 +89,7 @@ template <class Visit>
 void forEachTwin(const NodeTable& table, int i, Visit visit) {
   const Node& n = table.nodes[at(i)];
   int first = i, count = 1;
-  if (twinOf(n.op) != n.op) count = 2;
+  if (hasTwin(n.op)) count = 2;
   if (isTwin(n.op)) first = i - 1, count = 2;
   if (n.op == Op::solution) first = i - n.b, count = static_cast<int>(table.solutions[at(n.a)].rightSide.size());
   for (int k = 0; k < count; ++k) visit(first + k);

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "scalars/operations/all.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
@@ -111,11 +112,14 @@ class Lines {
   int number_ = 0;
 };
 
-/// True for an operation that another always follows.
-bool awaitsTwin(Op op) { return twinOf(op) != op; }
-std::string pairText(Op op) {
-  return op == Op::sin ? "a sine is followed by its cosine" : "a tanh is followed by its sech2";
+/// "sine", "tanh"
+std::string nounOf(Op op) {
+  const std::string_view noun = withFunction(op, [](auto f) { return f.noun; });
+  return std::string(noun.empty() ? nameOf(op) : noun);
 }
+
+/// Of an operation that another always follows.
+std::string pairText(Op op) { return "a " + nounOf(op) + " is followed by its " + nounOf(twinOf(op)); }
 
 /// What has been read so far; every node in it may be relied on.
 struct Parts : detail::NodeList {
@@ -204,7 +208,8 @@ int missingComponents(const Parts& parts) {
 
 Node readOperation(const Lines& lines, const std::vector<std::string_view>& words, Op op, const Parts& parts) {
   const int number = static_cast<int>(parts.nodes.size());
-  const bool hasSecond = operandsOf(op) == 2 || op == Op::log || op == Op::atan;
+  const bool hasDenominator = isFunction(op) && withFunction(op, [](auto f) { return f.hasDenominator; });
+  const bool hasSecond = operandsOf(op) == 2 || hasDenominator;
   const std::size_t expected = hasSecond ? 4 : 3;
   if (words.size() != expected)
     lines.fail(std::string(nameOf(op)) + " has " + (hasSecond ? "2 operands" : "1 operand") + ", not " +
@@ -218,19 +223,18 @@ Node readOperation(const Lines& lines, const std::vector<std::string_view>& word
                  quoted(words[i]));
     (i == 2 ? node.a : node.b) = *operand;
   }
-  if (op == Op::log && node.b != node.a)
-    lines.fail("both operands of log are the same node, not " + quoted(lines.text()));
-  if (op == Op::atan && !parts.isOnePlusSquare(node.b, node.a))
-    lines.fail("the second operand of atan is 1 plus the square of the first, which node " + std::to_string(node.b) +
-               " is not");
+  if (hasDenominator)
+    withFunction(op, [&](auto f) {
+      if constexpr (f.hasDenominator)
+        if (!f.isDenominator(parts, node.b, node.a)) lines.fail(f.denominatorMessage(node.b, quoted(lines.text())));
+    });
   return node;
 }
 
 void readNode(Lines& lines, Parts& parts) {
   const int number = static_cast<int>(parts.nodes.size());
   auto words = lines.words("node " + std::to_string(number));
-  const bool isNext =
-      !inputAt(parts, number).empty() || awaitsTwin(parts.nodes.back().op) || missingComponents(parts) > 0;
+  const bool isNext = !inputAt(parts, number).empty() || hasTwin(parts.nodes.back().op) || missingComponents(parts) > 0;
   const bool hasMatrix = parts.hasSystems && words[0] == "matrix" && !isNext;
   if (hasMatrix) {
     readMatrix(lines, parts);
@@ -257,8 +261,7 @@ void readNode(Lines& lines, Parts& parts) {
     return;
   }
   const Node before = parts.nodes.back();
-  if (awaitsTwin(before.op) && *op != twinOf(before.op))
-    lines.fail(pairText(before.op) + ", not by " + quoted(words[1]));
+  if (hasTwin(before.op) && *op != twinOf(before.op)) lines.fail(pairText(before.op) + ", not by " + quoted(words[1]));
   if (*op == Op::constant) {
     parts.constants.push_back(readConstant(lines, words));
     parts.push({Op::constant, static_cast<int>(parts.constants.size()) - 1});
@@ -268,8 +271,8 @@ void readNode(Lines& lines, Parts& parts) {
   if (!isOperation(*op)) lines.fail("inputs come before all other nodes, not " + quoted(lines.text()));
   const Node node = readOperation(lines, words, *op, parts);
   if (isTwin(*op) && (twinOf(before.op) != *op || isTwin(before.op) || before.a != node.a))
-    lines.fail((*op == Op::cos ? "a cosine follows the sine" : "a sech2 follows the tanh") +
-               std::string(" of the same node, not ") + quoted(lines.text()));
+    lines.fail("a " + nounOf(*op) + " follows the " + nounOf(gamut::before(*op)) + " of the same node, not " +
+               quoted(lines.text()));
   parts.push(node);
 }
 
@@ -351,7 +354,7 @@ Program loadProgram(std::istream& in) {
     lines.fail("at least " + std::to_string(inputs) + " nodes are expected, one for each input, not " +
                std::to_string(nodes));
   for (int i = 0; i < nodes; ++i) readNode(lines, parts);
-  if (const Op last = parts.nodes.back().op; awaitsTwin(last))
+  if (const Op last = parts.nodes.back().op; hasTwin(last))
     lines.fail(pairText(last) + ", not by the end of the nodes");
   if (missingComponents(parts) > 0)
     lines.fail("component " + std::to_string(parts.nodes.back().b + 1) + " is expected, not the end of the nodes");

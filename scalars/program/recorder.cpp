@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include "scalars/operations/all.hpp"
 #include "scalars/program/rules.hpp"
 
 namespace gamut {
@@ -150,13 +151,14 @@ int Recorder::rewritten(Op op, int a, int b) {
 }
 
 int Recorder::push(Op op, int a, int b) {
-  const bool isPair = twinOf(op) != op;
+  const bool isPair = hasTwin(op);
   const auto append = [&] {
     list_.push({op, a, b});
     if (isPair) list_.push({twinOf(op), a, b});  // right behind: both are new or both are known
     return size() - (isPair ? 2 : 1);
   };
-  if (!rules_.has(op == Op::sin ? RuleGroup::pairSinCos : RuleGroup::mergeEqual)) return append();
+  const bool pairsByItself = isFunction(op) && withFunction(op, [](auto f) { return f.pairsByItself; });
+  if (!rules_.has(pairsByItself ? RuleGroup::pairSinCos : RuleGroup::mergeEqual)) return append();
   // One order for a + b and b + a; a constant factor comes first.
   if (op == Op::add || (op == Op::mul && isConstant(a) == isConstant(b))) std::tie(a, b) = std::minmax({a, b});
   if (op == Op::mul && !isConstant(a) && isConstant(b)) std::swap(a, b);
@@ -166,33 +168,22 @@ int Recorder::push(Op op, int a, int b) {
 
 int Recorder::emit(Op op, int a, int b) {
   if (op == Op::solution) throw std::invalid_argument("a solution is recorded by solve(), not by emit()");
-  if (twinOf(op) != op) return pair(op, a).first;
-  if (isTwin(op)) return pair(op == Op::cos ? Op::sin : Op::tanh, a).second;
-  if (op == Op::atan && !list_.isOnePlusSquare(b, a)) return atan(a);
-  const int node = rewritten(op, a, b);
-  return node >= 0 ? node : push(op, a, b);
+  if (hasTwin(op)) return pair(op, a).first;
+  if (isTwin(op)) return pair(before(op), a).second;
+  if (const int node = rewritten(op, a, b); node >= 0) return node;
+  if (!isFunction(op)) return push(op, a, b);
+  return withFunction(op, [&](auto f) {
+    if constexpr (f.hasDenominator)
+      if (b < 0 || !f.isDenominator(list_, b, a)) b = f.denominator(*this, a);
+    return push(op, a, b);
+  });
 }
 
-int Recorder::recip(int a) {
-  if (isConstant(a) && contains(value(a), 0.0)) throw std::domain_error("division by a constant that may be zero");
-  return emit(Op::recip, a);
-}
-
-int Recorder::sqrt(int a) {
-  if (isConstant(a) && value(a).lower() < 0) throw std::domain_error("square root of a constant that may be negative");
-  return emit(Op::sqrt, a);
-}
-
-int Recorder::log(int a) {
-  if (isConstant(a) && value(a).lower() <= 0)
-    throw std::domain_error("logarithm of a constant that may not be positive");
-  return emit(Op::log, a, a);
-}
-
-int Recorder::atan(int a) {
-  if (const int node = rewritten(Op::atan, a, -1); node >= 0) return node;
-  const int square = sqr(a);
-  return push(Op::atan, a, add(constant(Interval(1.0)), square));
+int Recorder::function(Op op, int a) {
+  withFunction(op, [&](auto f) {
+    if (isConstant(a) && !isDefinedOn(f.domain, value(a))) throw std::domain_error(std::string(f.refusal));
+  });
+  return emit(op, a);
 }
 
 std::pair<int, int> Recorder::pair(Op op, int a) {
@@ -280,19 +271,14 @@ std::vector<int> Recorder::append(const Program& program, const std::vector<int>
       case Op::constant:
         here.push_back(constant(program.constants()[at(n.a)]));
         break;
-      case Op::sin:
-      case Op::tanh: {
-        const auto [first, second] = pair(n.op, a);
-        here.push_back(first);
-        twin = second;
-        break;
-      }
-      case Op::cos:
-      case Op::sech2:
-        here.push_back(twin);
-        break;
       default:
-        here.push_back(emit(n.op, a, b));
+        if (hasTwin(n.op)) {
+          const auto [first, second] = pair(n.op, a);
+          here.push_back(first);
+          twin = second;
+        } else {
+          here.push_back(isTwin(n.op) ? twin : emit(n.op, a, b));
+        }
     }
   }
   return here;

@@ -85,17 +85,12 @@ class Recorder {
   int neg(int a) { return emit(Op::neg, a); }
   int mul(int a, int b) { return emit(Op::mul, a, b); }
   int sqr(int a) { return emit(Op::sqr, a); }
-  int exp(int a) { return emit(Op::exp, a); }
-  int abs(int a) { return emit(Op::abs, a); }
-  int sign(int a) { return emit(Op::sign, a); }
-  /// These three throw std::domain_error for a constant that may lie outside the domain.
-  int recip(int a);
-  int sqrt(int a);
-  int log(int a);
-  int atan(int a);
-  int sin(int a) { return pair(Op::sin, a).first; }
-  int cos(int a) { return pair(Op::sin, a).second; }
-  int tanh(int a) { return pair(Op::tanh, a).first; }
+#define GAMUT_FUNCTION(name) \
+  int name(int a) { return function(Op::name, a); }
+  GAMUT_FUNCTIONS(GAMUT_FUNCTION)
+#undef GAMUT_FUNCTION
+  /// Throws std::domain_error for a constant that may lie outside the function's domain.
+  int function(Op op, int a);
   /// Operation `op` on a, and its twin: sine and cosine, tanh and sech2.
   std::pair<int, int> pair(Op op, int a);
 
@@ -105,8 +100,8 @@ class Recorder {
   /// matrix being regular, as whoever records it promises: nothing then proves it).
   std::vector<int> solve(int matrix, bool transposed, const std::vector<int>& rightSide);
 
-  /// Any operation but a solution on operands as in Node. (Rules may have moved a sign out of one operand of atan only:
-  /// then its denominator 1 + a² is written anew.)
+  /// Any operation but a solution on operands as in Node. (Rules may have moved a sign out of one operand only: then
+  /// the denominator of a function's derivative is written anew.)
   int emit(Op op, int a, int b = -1);
 
   /// Writes the program's operations down once more, by this recorder's rules: for each of its nodes the node here that

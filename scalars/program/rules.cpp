@@ -10,6 +10,9 @@
 #include <iterator>
 #include <tuple>
 #include <utility>
+#include <vector>
+
+#include "scalars/operations/all.hpp"
 
 namespace gamut {
 namespace {
@@ -241,81 +244,56 @@ constexpr Rule table[] = {
        const auto [x, isNegative] = r.signless(a);
        return withSign(r, isNegative, r.emit(Op::recip, x));
      }},
-
-    {Op::sqrt, foldConstants, "√c, where it is a double", "c ≥ 0",
-     [](Recorder& r, int a, int) {
-       return foldedOf(r, a, [](const Interval& x) { return x.lower() < 0 ? Interval::empty() : sqrt(x); });
-     }},
-    {Op::exp, foldConstants, "exp 0 = 1", everywhere,
-     [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? r.constant(1.0) : none; }},
-    {Op::log, foldConstants, "log 1 = 0", everywhere,
-     [](Recorder& r, int a, int) { return r.isExactly(a, 1) ? r.constant(0.0) : none; }},
-    {Op::atan, foldConstants, "atan 0 = 0", everywhere,
-     [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? a : none; }},
-
-    {Op::sin, foldConstants, "sin 0 = 0", everywhere,
-     [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? a : none; }},
-    {Op::sin, moveSigns, "sin(-x) = -sin x", everywhere,
-     [](Recorder& r, int a, int) {
-       if (!isOf(r, a, Op::neg)) return none;
-       const auto [x, isNegative] = r.signless(a);
-       return withSign(r, isNegative, r.sin(x));
-     }},
-    {Op::cos, foldConstants, "cos 0 = 1", everywhere,
-     [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? r.constant(1.0) : none; }},
-    {Op::cos, moveSigns, "cos(-x) = cos x", everywhere,
-     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.cos(r.signless(a).node) : none; }},
-
-    {Op::tanh, foldConstants, "tanh 0 = 0", everywhere,
-     [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? a : none; }},
-    {Op::tanh, moveSigns, "tanh(-x) = -tanh x", everywhere,
-     [](Recorder& r, int a, int) {
-       if (!isOf(r, a, Op::neg)) return none;
-       const auto [x, isNegative] = r.signless(a);
-       return withSign(r, isNegative, r.tanh(x));
-     }},
-    {Op::sech2, foldConstants, "sech² 0 = 1", everywhere,
-     [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? r.constant(1.0) : none; }},
-    {Op::sech2, moveSigns, "sech²(-x) = sech² x", everywhere,
-     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.emit(Op::sech2, r.signless(a).node) : none; }},
-
-    {Op::abs, foldConstants, "|c|, where it is a double", everywhere,
-     [](Recorder& r, int a, int) { return foldedOf(r, a, [](const Interval& x) { return abs(x); }); }},
-    {Op::abs, moveSigns, "|-x| = |x|", everywhere,
-     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.abs(r.signless(a).node) : none; }},
-    {Op::sign, foldConstants, "sign c, where it is known", everywhere,
-     [](Recorder& r, int a, int) { return foldedOf(r, a, [](const Interval& x) { return sign(x); }); }},
-    {Op::sign, moveSigns, "sign(-x) = -sign x", everywhere,
-     [](Recorder& r, int a, int) {
-       if (!isOf(r, a, Op::neg)) return none;
-       const auto [x, isNegative] = r.signless(a);
-       return withSign(r, isNegative, r.sign(x));
-     }},
 };
 
-/// Where the rules of an operation begin and end in the table.
-struct Stretch {
-  std::size_t begin = 0, end = 0;
-};
+constexpr std::string_view nameOf(Domain domain) {
+  return domain == Domain::nonzero ? "c ≠ 0" : domain == Domain::nonnegative ? "c ≥ 0" : everywhere;
+}
 
-constexpr std::array<Stretch, opCount> stretches = [] {
-  std::array<Stretch, opCount> result{};
-  for (std::size_t i = 0; i < std::size(table); ++i) {
-    Stretch& stretch = result[static_cast<std::size_t>(table[i].op)];
-    if (stretch.end == 0) stretch.begin = i;
-    stretch.end = i + 1;
-  }
-  return result;
-}();
+/// Those of a function, by what its file says of it.
+template <Op op>
+void addRulesOf(std::vector<Rule>& rules) {
+  using F = Function<op>;
+  if constexpr (!F::exact.empty())
+    rules.push_back({op, foldConstants, F::exact, nameOf(F::domain), [](Recorder& r, int a, int) {
+                       return foldedOf(r, a, [](const Interval& x) {
+                         return isDefinedOn(F::domain, x) ? F::of(x) : Interval::empty();
+                       });
+                     }});
+  if constexpr (!F::known.empty())
+    rules.push_back({op, foldConstants, F::known, everywhere, [](Recorder& r, int a, int) {
+                       if (!r.isExactly(a, F::point)) return none;
+                       return F::value == F::point ? a : r.constant(F::value);
+                     }});
+  if constexpr (!F::odd.empty())
+    rules.push_back({op, moveSigns, F::odd, everywhere, [](Recorder& r, int a, int) {
+                       if (!isOf(r, a, Op::neg)) return none;
+                       const auto [x, isNegative] = r.signless(a);
+                       return withSign(r, isNegative, r.emit(op, x));
+                     }});
+  if constexpr (!F::even.empty())
+    rules.push_back({op, moveSigns, F::even, everywhere, [](Recorder& r, int a, int) {
+                       return isOf(r, a, Op::neg) ? r.emit(op, r.signless(a).node) : none;
+                     }});
+}
+
+/// In the order of Op.
+const std::vector<Rule>& allRules() {
+  static const std::vector<Rule> all = [] {
+    std::vector<Rule> rules(std::begin(table), std::end(table));
+#define GAMUT_RULES(name) addRulesOf<Op::name>(rules);
+    GAMUT_FUNCTIONS(GAMUT_RULES)
+#undef GAMUT_RULES
+    return rules;
+  }();
+  return all;
+}
 
 }  // namespace
 
-std::span<const Rule> rules() { return table; }
+std::span<const Rule> rules() { return allRules(); }
 
-std::span<const Rule> rulesOf(Op op) {
-  const Stretch stretch = stretches[static_cast<std::size_t>(op)];
-  return std::span(table).subspan(stretch.begin, stretch.end - stretch.begin);
-}
+std::span<const Rule> rulesOf(Op op) { return std::ranges::equal_range(allRules(), op, {}, &Rule::op); }
 
 bool isPowerOfTwo(const Interval& c) {
   int exponent = 0;

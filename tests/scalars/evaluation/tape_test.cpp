@@ -233,7 +233,7 @@ TEST(Tape, ComputesASineAndACosineOfOneAngleTogether) {
   const Program program =
       record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sin(x[0]) * cos(x[0]); });
   const Tape tape(program);
-  EXPECT_EQ(std::ranges::count(tape.instructions(), TapeOp::sineCosine, &Instruction::op), 1);
+  EXPECT_EQ(std::ranges::count(tape.instructions(), Op::sin, &Instruction::function), 1);
   EXPECT_EQ(tape.instructions().size(), 2u);
 }
 
