@@ -68,7 +68,7 @@ std::string scriptsOf(const Report& report) {
     scripts += fmt::format("<script type=\"application/json\" id=\"times\">{}</script>\n<!--\n{}\n-->\n", data,
                            page::plottingLicence) +
                script(page::plottingScript) + script(page::axesScript) + script(page::pageScript);
-  return report.results.machine.present ? scripts + script(page::sceneScript) + script(page::machineScript) : scripts;
+  return report.results.picture.present ? scripts + script(page::sceneScript) + script(page::machineScript) : scripts;
 }
 
 /// With so much detail.

@@ -36,7 +36,7 @@ std::vector<Place> knownOf(const std::vector<double>& one, const std::vector<dou
 }
 
 /// The direction of all axes at the start; zero if they differ, or there are none.
-Place commonAxis(const MachineResult& machine) {
+Place commonAxis(const PictureResult& machine) {
   Place common{0, 0, 0};
   for (std::size_t a = 0; a < machine.axes.size(); ++a) {
     const Place one = placeOf(machine.places.axes, 0, machine.axes.size(), a);
@@ -49,7 +49,7 @@ Place commonAxis(const MachineResult& machine) {
 
 /// Normal to the plane of all places, or zero: they fill space. Places on a line, or at one place, are in many planes:
 /// that across all axes is chosen, or one that looks familiar.
-Place normalOf(const MachineResult& machine, const std::vector<Place>& places) {
+Place normalOf(const PictureResult& machine, const std::vector<Place>& places) {
   constexpr double flat = 1e-6;  // of the size
   Place longest{0, 0, 0}, normal{0, 0, 0};
   for (const Place& place : places)
@@ -89,7 +89,7 @@ void aim(View& view, const Place& toBeholder, const Place& upwards) {
   view.right = cross(view.up, toBeholder);
 }
 
-Place againstGravity(const MachineResult& machine) {
+Place againstGravity(const PictureResult& machine) {
   Place gravity{0, 0, 0};
   for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.directions.size()); ++i)
     gravity[i] = machine.directions[i].gravity;
@@ -97,7 +97,7 @@ Place againstGravity(const MachineResult& machine) {
 }
 
 /// Enclosures may add a quarter of the motions' size on each side.
-Range extent(const MachineResult& machine, const std::vector<Place>& motions, const Place& along) {
+Range extent(const PictureResult& machine, const std::vector<Place>& motions, const Place& along) {
   Range range, wide;
   for (const Place& place : motions) range.hold(dot(place, along));
   for (const Place& place : knownOf(machine.places.lower, machine.places.upper)) wide.hold(dot(place, along));
@@ -125,7 +125,7 @@ bool isKnown(const Place& place) {
 
 namespace {
 
-View aimedView(const MachineResult& machine) {
+View aimedView(const PictureResult& machine) {
   constexpr double margin = 64, marginUp = 36, leastHeight = 240, mostHeight = 460;
   View view;
   view.width = paperWidth;
@@ -183,7 +183,7 @@ bool isFinite(const View& view) {
 
 }  // namespace
 
-View viewOf(const MachineResult& machine) {
+View viewOf(const PictureResult& machine) {
   View view = aimedView(machine);
   if (isFinite(view)) return view;
   View any;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/results/machine.hpp"
+#include "studies/results/picture.hpp"
 
 namespace gamut {
 
@@ -37,6 +37,6 @@ struct View {
 /// Onto the plane in which all points move, if there is one, with up against gravity where that lies in it; otherwise
 /// from above and aside. All that is shown of the nominal motion and the samples fits in; enclosures as far as they are
 /// not much wider.
-View viewOf(const MachineResult& machine);
+View viewOf(const PictureResult& machine);
 
 }  // namespace gamut

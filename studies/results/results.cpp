@@ -11,7 +11,7 @@ namespace gamut {
 std::vector<Part*> Results::parts() {
   std::vector<Part*> parts{&interval, &stochastic, &fuzzy, &comparison, &distribution, &sensitivity};
   for (Boxed<FurtherPart>& part : further) parts.push_back(&*part);
-  parts.insert(parts.end(), {&surrogate, &machine});
+  parts.insert(parts.end(), {&surrogate, &picture});
   return parts;
 }
 

@@ -11,8 +11,8 @@
 #include "studies/results/comparison.hpp"
 #include "studies/results/fuzzy.hpp"
 #include "studies/results/interval.hpp"
-#include "studies/results/machine.hpp"
 #include "studies/results/origin.hpp"
+#include "studies/results/picture.hpp"
 #include "studies/results/probability.hpp"
 #include "studies/results/requirements.hpp"
 #include "studies/results/stochastic.hpp"
@@ -34,7 +34,7 @@ struct Results : Origin {
   SensitivityResult sensitivity;
   std::vector<Boxed<FurtherPart>> further = furtherParts();  ///< one each; of what nobody else knows the type of
   SurrogateResult surrogate;
-  MachineResult machine;
+  PictureResult picture;
 
   /// What analyses found, in the order of the file.
   std::vector<Part*> parts();

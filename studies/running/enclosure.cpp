@@ -6,6 +6,7 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "analyses/flow/flow.hpp"
 #include "analyses/flow/image.hpp"
@@ -106,7 +107,7 @@ void clear(Run& run) {
   run.enclosed = {};
   run.enclosed.at = run.emptyBounds();
   run.enclosed.cuts.assign(run.machine.levels.size(), run.emptyBounds());
-  Places& places = run.results.machine.places;
+  Places& places = run.results.picture.places;
   places.lower = places.upper = places.sag = {};
 }
 
@@ -142,6 +143,24 @@ void enclose(Run& run) {
     run.enclosed.why = run.watch.why();
   }
   run.enclosed.cpu = processCpuSeconds() - start;
+}
+
+void guarantee(Run& run) {
+  if (!run.study.asksFor<IntervalResult>()) return;
+  Enclosed& enclosed = run.enclosed;
+  IntervalResult& interval = run.results.interval;
+  interval.present = true;
+  interval.at = std::move(enclosed.at);
+  interval.over = std::move(enclosed.over);
+  interval.direct = std::move(enclosed.direct);
+  interval.reached = enclosed.reached;
+  interval.why = enclosed.why;
+  interval.tightness = enclosed.tightness;
+  interval.shortfall = enclosed.shortfall;
+  interval.advice = enclosed.advice;
+  interval.pieces = enclosed.pieces;
+  interval.steps = enclosed.steps;
+  interval.cpu = enclosed.cpu - enclosed.cutCpu;
 }
 
 }  // namespace gamut

@@ -18,8 +18,8 @@
 #include "studies/machine.hpp"
 #include "studies/results/results.hpp"
 #include "studies/running/former_samples.hpp"
+#include "studies/running/picture_programs.hpp"
 #include "studies/running/run.hpp"
-#include "studies/running/seen.hpp"
 #include "studies/running/violations.hpp"
 #include "studies/watch.hpp"
 

@@ -233,7 +233,7 @@ TEST_F(Browser, MovesTheMachineThroughTime) {
 
 TEST_F(Browser, ShowsNoNameOverAnother) {
   Results results = example::machine();
-  MachineResult& m = results.machine;
+  PictureResult& m = results.picture;
   const auto mass = std::ranges::find(m.parts, "mass", &PartInfo::kind);
   PartInfo other = *mass;
   other.name = "beside it";
@@ -373,7 +373,7 @@ TEST_F(Browser, DrawsQuantitiesOnceFilledAndOnceNot) {
 /// On a phone text of drawings is 9 pixels high at least, and names at the picture's edge stay in it.
 TEST_F(Browser, KeepsTextReadableOnAPhone) {
   Results machine = example::machine();
-  for (PartInfo& part : machine.machine.parts) part.name += " of a machine with long names";
+  for (PartInfo& part : machine.picture.parts) part.name += " of a machine with long names";
   for (const Results& results : {machine, example::kinematics(), example::sensitive()}) {
     const std::string page = opened(
         results,

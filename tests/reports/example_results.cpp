@@ -133,7 +133,7 @@ Results kinematics() {
 
 Results machine(bool isSpatial, std::size_t seen) {
   Results results = pendulum();
-  MachineResult& m = results.machine;
+  PictureResult& m = results.picture;
   m.present = m.places.present = true;
   m.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
   m.points = {{"inertial", true, true}, {"elbow", false, false}, {"tip", false, false}, {"wall", true, true}};

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/drawing/axes.hpp"
-#include "reports/drawing/machine.hpp"
+#include "reports/drawing/picture.hpp"
 #include "reports/drawing/screen.hpp"
 #include "tests/reports/example_results.hpp"
 
@@ -47,7 +47,7 @@ TEST(Vectors, NumbersAreWrittenAsTheScreenReadsThem) {
 
 /// A machine in space whose tip is unknown at the second time, as is a sample at the third, and a pin's axis.
 Scene scene() {
-  MachineResult machine = example::machine(true, 3).machine;
+  PictureResult machine = example::machine(true, 3).picture;
   Places& p = machine.places;
   const std::size_t row = 3 * machine.points.size();
   p.nominal[row + 6] = p.lower[row + 7] = p.samples[2 * row + 4] = p.axes[6] = NAN;

@@ -122,9 +122,9 @@ TEST(Probabilities, HoldForDependentQuantities) {
       both += x * y, one += x * x, other += y * y;
     }
     // The picture's samples are among these: the bob hangs as far from the hinge, at the angle, that theirs say.
-    const Places& places = results.machine.places;
+    const Places& places = results.picture.places;
     ASSERT_GE(places.sample.size(), 2U);
-    const std::size_t points = results.machine.points.size(), times = places.time.size();
+    const std::size_t points = results.picture.points.size(), times = places.time.size();
     for (std::size_t i = 0; i < places.sample.size(); ++i) {
       const auto of = std::ranges::find(kept.number, places.sample[i]) - kept.number.begin();
       const double* values = &kept.values[3 * static_cast<std::size_t>(of)];

@@ -132,7 +132,7 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(r.outputs[0], fields["/study/outputs"]), padding);
   EXPECT_LE(longestGap(r.uncertain[0], fields["/study/uncertain"]), padding);
   EXPECT_LE(longestGap(r.shapes[0], fields["/study/shapes"]), padding);
-  const MachineResult& m = r.machine;
+  const PictureResult& m = r.picture;
   EXPECT_LE(longestGap(m, fields["/machine"], m.present, m.directions, m.points, m.parts, m.axes, m.places), padding);
   EXPECT_LE(longestGap(m.directions[0], fields["/machine/directions"]), padding);
   EXPECT_LE(longestGap(m.points[0], fields["/machine/points"]), padding);

@@ -204,15 +204,15 @@ inline Results sampleResults() {
   polynomials.count = {3, 0, 1, 0};
   polynomials.radius = {1e-9, nan, 0.5, nan};
   polynomials.coefficient = {1, -2, 0.5, 7};
-  r.machine.present = r.machine.places.present = true;
-  r.machine.why = "the enclosure became wider than 1e6";
-  r.machine.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
-  r.machine.points = {{"inertial", true, true}, {"tip", false, false}};
-  r.machine.parts = {{"hinge", "revolute", "joint", 0, 0, 1, 0, 0},
+  r.picture.present = r.picture.places.present = true;
+  r.picture.why = "the enclosure became wider than 1e6";
+  r.picture.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
+  r.picture.points = {{"inertial", true, true}, {"tip", false, false}};
+  r.picture.parts = {{"hinge", "revolute", "joint", 0, 0, 1, 0, 0},
                      {"rod", "link", "rigid", 0, 1, 0, 0, 0},
                      {"bob", "mass", "mass", 1, 1, 0, 0, 0.25}};
-  r.machine.axes = {{"hinge.axis", 0}};
-  r.machine.places = {true,
+  r.picture.axes = {{"hinge.axis", 0}};
+  r.picture.places = {true,
                       {0, 0.02},
                       {0, 0, 0, 0, 0.3, -0.4, 0, 0, 0, 0, 0.4, -0.3},
                       {1, 0, 0, 1, 0, 0},

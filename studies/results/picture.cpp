@@ -1,5 +1,5 @@
 // What the file says of the machine.
-#include "studies/results/machine.hpp"
+#include "studies/results/picture.hpp"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ constexpr std::string_view direction = "/machine/directions/direction", point = 
                            sample = "/machine/places/sample";
 }
 
-std::vector<Field> fieldsOf(MachineResult& m) { return m.fieldsAnd({}); }
+std::vector<Field> fieldsOf(PictureResult& m) { return m.fieldsAnd({}); }
 
 std::vector<Field> fieldsOfDirection(DirectionInfo& d) {
   return {{"direction", &d.name, unit::none, "of the inertial frame", {}},
@@ -77,7 +77,7 @@ std::vector<Field> fieldsOfPlaces(Places& p) {
 
 }  // namespace
 
-void MachineResult::describe(std::vector<Group>& groups) {
+void PictureResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/machine", "the machine as the report draws it", *this, fieldsOf));
   groups.push_back(
       listOf("/machine/directions", "in which places are measured", scale::direction, directions, fieldsOfDirection));

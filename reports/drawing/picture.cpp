@@ -1,5 +1,5 @@
 // A class for each kind of part says how it looks.
-#include "reports/drawing/machine.hpp"
+#include "reports/drawing/picture.hpp"
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ std::string classOf(std::string_view name) { return fmt::format("class=\"{}\"", 
 
 class Builder {
  public:
-  explicit Builder(const MachineResult& machine) : m_(machine) {}
+  explicit Builder(const PictureResult& machine) : m_(machine) {}
 
   Scene scene() {
     placePoints();
@@ -195,7 +195,7 @@ class Builder {
     }
   }
 
-  const MachineResult& m_;
+  const PictureResult& m_;
   Scene s_;
 };
 
@@ -222,7 +222,7 @@ const char* tagOf(Shape::Form form) {
 
 }  // namespace
 
-Scene sceneOf(const MachineResult& machine) { return Builder(machine).scene(); }
+Scene sceneOf(const PictureResult& machine) { return Builder(machine).scene(); }
 
 std::string drawScene(const Scene& scene, const std::string& label) {
   const View& view = scene.view;
@@ -239,7 +239,7 @@ std::string drawScene(const Scene& scene, const std::string& label) {
   return svg + scaleBar(view) + "</svg>\n";
 }
 
-bool isEnclosed(const MachineResult& machine) {
+bool isEnclosed(const PictureResult& machine) {
   return std::ranges::any_of(machine.places.lower, [](double x) { return std::isfinite(x); });
 }
 

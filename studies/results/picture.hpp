@@ -51,7 +51,7 @@ struct Places {
 };
 
 /// Present where there is something to be seen; it is less than was asked for where places are not enclosed to the end.
-struct MachineResult final : Part {
+struct PictureResult final : Part {
   std::vector<DirectionInfo> directions;
   std::vector<PointInfo> points;
   std::vector<PartInfo> parts;

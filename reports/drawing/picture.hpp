@@ -5,18 +5,18 @@
 #include <string>
 
 #include "reports/drawing/scene.hpp"
-#include "studies/results/machine.hpp"
+#include "studies/results/picture.hpp"
 
 namespace gamut {
 
 /// Links, joints by their kind, masses with their names, springs and the ground; behind them the samples and the region
 /// that the enclosures sweep, in front the enclosures at one time.
-Scene sceneOf(const MachineResult& machine);
+Scene sceneOf(const PictureResult& machine);
 
 /// `label` for those who cannot see it.
 std::string drawScene(const Scene& scene, const std::string& label);
 
 /// Whether some place is enclosed.
-bool isEnclosed(const MachineResult& machine);
+bool isEnclosed(const PictureResult& machine);
 
 }  // namespace gamut

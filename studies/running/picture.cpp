@@ -18,7 +18,7 @@ namespace {
 void describeParts(Run& run) {
   const Mechanism& mechanism = run.study.mechanism;
   const Skeleton& skeleton = run.seen.skeleton;
-  MachineResult& machine = run.results.machine;
+  PictureResult& machine = run.results.picture;
   const auto nominal = [&](const Expression& number) { return midpoint(mechanism.rangeOf(number)); };
   machine.present = machine.places.present = true;
   for (std::size_t i = 0; i < 3; ++i)
@@ -191,7 +191,7 @@ void lookAtMachine(Run& run) try {
   run.seen = whatIsSeen(run.machine);
   if (run.seen.empty()) return;
   describeParts(run);
-  Places& places = run.results.machine.places;
+  Places& places = run.results.picture.places;
   places.time = run.seen.at;
   const Table nominal = Follower(run).follow(run.motion.nominal);
   const std::size_t coordinates = 3 * run.seen.skeleton.points.size();
@@ -199,12 +199,12 @@ void lookAtMachine(Run& run) try {
   append(places.axes, nominal, coordinates, nominal.outputs);
 } catch (const std::bad_alloc&) {  // the answers are worth more than a picture
   run.seen = {};
-  run.results.machine = {};
+  run.results.picture = {};
 }
 
 void enclosePlaces(Run& run, const Tube& tube) {
   if (!run.seen.isEnclosed) return;
-  Places& places = run.results.machine.places;
+  Places& places = run.results.picture.places;
   makeRoom(run, places);
   Sags sags(run, tube);
   const std::vector<std::size_t>& times = run.seen.times;
@@ -219,7 +219,7 @@ void enclosePlaces(Run& run, const Tube& tube) {
 
 void enclosePlaces(Run& run) {
   if (!run.seen.isEnclosed) return;
-  Places& places = run.results.machine.places;
+  Places& places = run.results.picture.places;
   const auto images =
       encloseImage(run.seen.positions, 0.0, run.machine.box, {}, run.study.flow.degree, run.watch.stop());
   std::vector<Interval> bounds = BoxValues(run.seen.positions, run.machine.box).over(Interval(0.0), {});
@@ -232,7 +232,7 @@ void enclosePlaces(Run& run) {
 
 void showSamples(Run& run) try {
   if (run.seen.empty()) return;
-  MachineResult& machine = run.results.machine;
+  PictureResult& machine = run.results.picture;
   if (run.study.asksFor<IntervalResult>())
     machine.why = run.seen.isEnclosed
                       ? run.enclosed.why
@@ -251,8 +251,8 @@ void showSamples(Run& run) try {
     append(machine.places.samples, sample, 0, 3 * run.seen.skeleton.points.size());
   }
 } catch (const std::bad_alloc&) {
-  run.results.machine.places.sample.clear();
-  run.results.machine.places.samples.clear();
+  run.results.picture.places.sample.clear();
+  run.results.picture.places.samples.clear();
 }
 
 }  // namespace gamut

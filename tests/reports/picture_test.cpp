@@ -1,5 +1,5 @@
 // The picture of the machine as text: an element for each part, a view that suits it, enclosures outward.
-#include "reports/drawing/machine.hpp"
+#include "reports/drawing/picture.hpp"
 
 #include <gmock/gmock.h>
 
@@ -24,11 +24,11 @@ using ::testing::Not;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::string drawn(const MachineResult& machine) { return drawScene(sceneOf(machine), "machine"); }
+std::string drawn(const PictureResult& machine) { return drawScene(sceneOf(machine), "machine"); }
 
 /// A machine of one point that is at these places in turn.
-MachineResult moving(const std::vector<Place>& places) {
-  MachineResult m;
+PictureResult moving(const std::vector<Place>& places) {
+  PictureResult m;
   m.present = m.places.present = true;
   m.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
   m.points = {{"bob", false, false}};
@@ -41,7 +41,7 @@ MachineResult moving(const std::vector<Place>& places) {
 }
 
 TEST(MachinePicture, HasAnElementForEachPart) {
-  const std::string svg = drawn(example::machine().machine);
+  const std::string svg = drawn(example::machine().picture);
   EXPECT_EQ(count(svg, "class=\"link\""), 2u);
   EXPECT_EQ(count(svg, "class=\"mass\""), 2u);
   EXPECT_EQ(count(svg, "class=\"spring\""), 1u);
@@ -54,7 +54,7 @@ TEST(MachinePicture, HasAnElementForEachPart) {
 }
 
 TEST(MachinePicture, HoldsNothingThatIsFree) {
-  MachineResult m = moving({{0, 0, 0}});
+  PictureResult m = moving({{0, 0, 0}});
   m.points.insert(m.points.begin(), {"inertial", true, true});
   m.parts = {{"flight", "free", "joint", 0, 1, 3, 3, 0}, {"weight", "mass", "mass", 1, 1, 0, 0, 1}};
   m.places.nominal.insert(m.places.nominal.begin(), 3, 0.0);
@@ -65,7 +65,7 @@ TEST(MachinePicture, HoldsNothingThatIsFree) {
 
 /// Many bodies in a wrist: the name of the heaviest is seen, and none lies over it.
 TEST(MachinePicture, ShowsNoNameOverAnother) {
-  MachineResult m = moving({{0, 0, 0}, {0, 1, 0}});
+  PictureResult m = moving({{0, 0, 0}, {0, 1, 0}});
   m.points.resize(3, m.points.front());
   m.parts.push_back({"heavier", "mass", "mass", 1, 1, 0, 0, 5});
   m.parts.push_back({"elsewhere", "mass", "mass", 2, 2, 0, 0, 2});
@@ -77,7 +77,7 @@ TEST(MachinePicture, ShowsNoNameOverAnother) {
 }
 
 TEST(MachinePicture, TellsMassesInTheUnitsThatTheStudyStates) {
-  MachineResult machine = moving({{0, 0, 0}});
+  PictureResult machine = moving({{0, 0, 0}});
   machine.parts[0].mass = 0.25;
   machine.parts[0].told = "g";
   EXPECT_THAT(drawn(machine), HasSubstr("weight (mass, 250 g)"));
@@ -99,10 +99,10 @@ TEST(MachinePicture, IsLeftOutWhereThereIsNoMachine) {
 
 TEST(MachinePicture, SaysWhatIsMissing) {
   Results results = example::machine();
-  results.machine.why = "the run was interrupted";
-  results.machine.places.lower = results.machine.places.upper = results.machine.places.sag = {};
-  results.machine.places.sample = {};
-  results.machine.places.samples = {};
+  results.picture.why = "the run was interrupted";
+  results.picture.places.lower = results.picture.places.upper = results.picture.places.sag = {};
+  results.picture.places.sample = {};
+  results.picture.places.samples = {};
   const std::string page = renderReport(results);
   EXPECT_THAT(page, AllOf(HasSubstr("at the start; the run was interrupted."), Not(HasSubstr("class=\"swept\"")),
                           Not(HasSubstr("guaranteed region"))));
@@ -111,11 +111,11 @@ TEST(MachinePicture, SaysWhatIsMissing) {
 TEST(MachinePicture, EscapesNames) {
   Results results = example::machine();
   const std::string attack = "</script></svg><script>alert(1)</script>";
-  results.machine.why = attack;
-  for (PointInfo& point : results.machine.points) point.name = attack;
-  for (PartInfo& part : results.machine.parts) part.name = part.type = attack;
-  results.machine.parts[1].kind = attack;
-  for (DirectionInfo& direction : results.machine.directions) direction.name = attack;
+  results.picture.why = attack;
+  for (PointInfo& point : results.picture.points) point.name = attack;
+  for (PartInfo& part : results.picture.parts) part.name = part.type = attack;
+  results.picture.parts[1].kind = attack;
+  for (DirectionInfo& direction : results.picture.directions) direction.name = attack;
   const std::string page = renderReport(results);
   EXPECT_EQ(count(page, "<script"), count(renderReport(example::machine()), "<script"));
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
@@ -138,13 +138,13 @@ TEST(MachinePicture, IsASideViewOfThePlaneOfMotion) {
       EXPECT_NEAR(view.up[i], up[i], 1e-12);
     }
   }
-  EXPECT_TRUE(viewOf(example::machine().machine).isSideView);
-  EXPECT_FALSE(viewOf(example::machine(true).machine).isSideView);
+  EXPECT_TRUE(viewOf(example::machine().picture).isSideView);
+  EXPECT_FALSE(viewOf(example::machine(true).picture).isSideView);
 }
 
 TEST(MachinePicture, OfAMachineAtRestIsSeenAlongItsAxes) {
   for (std::size_t i : {0, 1}) {
-    MachineResult machine = moving({{0, 0, 0}, {0, 0, -1}});
+    PictureResult machine = moving({{0, 0, 0}, {0, 0, -1}});
     machine.parts.push_back({"hinge", "revolute", "joint", 0, 0, 1, 0, 0});
     machine.axes = {{"hinge.axis", 1}};
     machine.places.axes = {0, 0, 0, 0, 0, 0};
@@ -156,7 +156,7 @@ TEST(MachinePicture, OfAMachineAtRestIsSeenAlongItsAxes) {
 }
 
 TEST(MachinePicture, HasUpAgainstGravity) {
-  MachineResult machine = moving({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  PictureResult machine = moving({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
   machine.directions = {{"x", 9.81}, {"y", 0}, {"z", 0}};
   const View view = viewOf(machine);
   EXPECT_NEAR(view.up[0], -1, 1e-12);
@@ -166,7 +166,7 @@ TEST(MachinePicture, HasUpAgainstGravity) {
 TEST(MachinePicture, FitsOnThePaperWhateverTheSize) {
   for (const double size : {1e-6, 1e-3, 1.0, 100.0, 1e5})
     for (const bool isSpatial : {false, true}) {
-      MachineResult machine = example::machine(isSpatial).machine;
+      PictureResult machine = example::machine(isSpatial).picture;
       for (auto* of : {&machine.places.nominal, &machine.places.samples, &machine.places.lower, &machine.places.upper})
         for (double& x : *of) x *= size;
       const Scene scene = sceneOf(machine);
@@ -188,7 +188,7 @@ TEST(MachinePicture, OfOnePlaceIsThereToo) {
 
 TEST(MachinePicture, SurvivesNumbersThatAreNone) {
   for (const double odd : {std::nan(""), infinity, -infinity, 1e308, -1e308}) {
-    MachineResult machine = example::machine(true).machine;
+    PictureResult machine = example::machine(true).picture;
     for (auto* of : {&machine.places.nominal, &machine.places.samples, &machine.places.lower, &machine.places.upper,
                      &machine.places.sag, &machine.places.axes})
       for (std::size_t i = 7; i < of->size(); i += 7) (*of)[i] = odd;
@@ -198,7 +198,7 @@ TEST(MachinePicture, SurvivesNumbersThatAreNone) {
 }
 
 TEST(MachinePicture, HandsOnEnclosuresOutward) {
-  const MachineResult machine = example::machine().machine;
+  const PictureResult machine = example::machine().picture;
   const View view = viewOf(machine);
   const json data = json::parse(sceneData(sceneOf(machine)));
   const double unit = data["unit"].get<double>() / view.scale;

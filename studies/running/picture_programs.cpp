@@ -1,5 +1,5 @@
 // Recorded apart from the study's outputs, so that these stay what they are.
-#include "studies/running/seen.hpp"
+#include "studies/running/picture_programs.hpp"
 
 #include <algorithm>
 #include <iterator>

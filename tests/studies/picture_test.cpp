@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "mechanics/assembly.hpp"
+#include "studies/running/picture_programs.hpp"
 #include "studies/running/run.hpp"
-#include "studies/running/seen.hpp"
 #include "tests/studies/sample_study.hpp"
 
 namespace gamut {
@@ -21,14 +21,14 @@ Results seenResults(const std::string& text) { return run(readStudyText(text, "s
 
 std::string fine(const std::string& step) { return sampleStudyWith("output_step = 0.1", "output_step = " + step); }
 
-std::size_t pointNamed(const MachineResult& machine, const std::string& name) {
+std::size_t pointNamed(const PictureResult& machine, const std::string& name) {
   const auto found = std::ranges::find(machine.points, name, &PointInfo::name);
   EXPECT_NE(found, machine.points.end()) << name;
   return static_cast<std::size_t>(found - machine.points.begin());
 }
 
 TEST(SeenMachine, NamesPointsAndParts) {
-  const MachineResult machine = seenResults(sampleStudy).machine;
+  const PictureResult machine = seenResults(sampleStudy).picture;
   ASSERT_TRUE(machine.present);
   ASSERT_EQ(machine.points.size(), 2u);
   EXPECT_EQ(machine.points[0].name, "inertial");
@@ -50,7 +50,7 @@ TEST(SeenMachine, NamesPointsAndParts) {
 TEST(SeenMachine, IsWhereTheAssemblyIsInTheNominalMotion) {
   const Study study = readStudyText(sampleStudy, "sample.toml");
   const Results results = run(study);
-  const Places& places = results.machine.places;
+  const Places& places = results.picture.places;
   ASSERT_EQ(places.time, results.time);
   const KeptSamples& kept = results.stochastic.kept;
   const std::size_t centre = kept.motionNumber.size() - 1, times = results.time.size();  // the nominal motion
@@ -68,8 +68,8 @@ TEST(SeenMachine, IsWhereTheAssemblyIsInTheNominalMotion) {
 /// Of every sample and every output time between two shown times: the point lies within the boxes' convex combination,
 /// wider by the sag, in every direction. No tolerance.
 void expectSamplesInside(const Results& results) {
-  const Places& places = results.machine.places;
-  const std::size_t points = results.machine.points.size(), tip = pointNamed(results.machine, "tip"), outputs = 2;
+  const Places& places = results.picture.places;
+  const std::size_t points = results.picture.points.size(), tip = pointNamed(results.picture, "tip"), outputs = 2;
   const KeptSamples& kept = results.stochastic.kept;
   ASSERT_GT(kept.motionNumber.size(), 1u);
   const auto at = [&](std::size_t row, std::size_t d) { return 3 * (row * points + tip) + d; };
@@ -105,10 +105,10 @@ TEST(SeenMachine, HoldsSamplesAtShownTimesAndBetween) {
   const Results results = seenResults(withTip(fine("0.0005")));
   ASSERT_EQ(results.outputs[0].quantity, "tip.position.y");
   ASSERT_EQ(results.outputs[1].quantity, "tip.position.z");
-  EXPECT_LE(results.machine.places.time.size(), mostSeenTimes);
-  EXPECT_LT(results.machine.places.time.size(), results.time.size());
-  EXPECT_EQ(results.machine.places.time.back(), 0.5);
-  EXPECT_EQ(results.machine.places.sample.size(), seenSamples);
+  EXPECT_LE(results.picture.places.time.size(), mostSeenTimes);
+  EXPECT_LT(results.picture.places.time.size(), results.time.size());
+  EXPECT_EQ(results.picture.places.time.back(), 0.5);
+  EXPECT_EQ(results.picture.places.sample.size(), seenSamples);
   expectSamplesInside(results);
 }
 
@@ -120,8 +120,8 @@ TEST(SeenMachine, HoldsSamplesOfARodWhoseLengthVariesInTime) {
 
 TEST(SeenMachine, IsTightlyEnclosed) {
   const Results results = seenResults(sampleStudy);
-  const Places& places = results.machine.places;
-  const std::size_t tip = pointNamed(results.machine, "tip"), points = results.machine.points.size();
+  const Places& places = results.picture.places;
+  const std::size_t tip = pointNamed(results.picture, "tip"), points = results.picture.points.size();
   for (std::size_t i = 0; i < results.time.size(); ++i) {
     const std::size_t z = 3 * (i * points + tip) + 2;
     EXPECT_LE(places.upper[z] - places.lower[z],
@@ -131,13 +131,13 @@ TEST(SeenMachine, IsTightlyEnclosed) {
 
 TEST(SeenMachine, ShowsWhatWasAskedForAlone) {
   const auto compared = [](const std::string& words) {
-    return seenResults(sampleStudyWith("\"interval\", \"stochastic\", \"fuzzy\"", words)).machine;
+    return seenResults(sampleStudyWith("\"interval\", \"stochastic\", \"fuzzy\"", words)).picture;
   };
-  const MachineResult samples = compared("\"stochastic\"");
+  const PictureResult samples = compared("\"stochastic\"");
   EXPECT_TRUE(samples.places.lower.empty());
   EXPECT_FALSE(samples.places.samples.empty());
   EXPECT_THAT(samples.why, IsEmpty());
-  const MachineResult enclosure = compared("\"interval\"");
+  const PictureResult enclosure = compared("\"interval\"");
   EXPECT_FALSE(enclosure.places.lower.empty());
   EXPECT_TRUE(enclosure.places.samples.empty());
   EXPECT_TRUE(compared("\"fuzzy\"").places.lower.empty());
@@ -147,7 +147,7 @@ TEST(SeenMachine, StandsAtItsStartWhereTheRunWasInterrupted) {
   const std::atomic<bool> cancelled{true};
   RunOptions options;
   options.cancelled = &cancelled;
-  const MachineResult machine = run(readStudyText(sampleStudy, "sample.toml"), options).machine;
+  const PictureResult machine = run(readStudyText(sampleStudy, "sample.toml"), options).picture;
   ASSERT_TRUE(machine.present);
   EXPECT_NEAR(machine.places.nominal[4], 0.25, 1e-15);  // sin 30° / 2
   EXPECT_NE(machine.why, "");
@@ -156,7 +156,7 @@ TEST(SeenMachine, StandsAtItsStartWhereTheRunWasInterrupted) {
 TEST(SeenMachine, OfKinematicsIsEnclosedWhereItStands) {
   std::string text = sampleStudyWith("\"dynamics\"", "\"kinematics\"");
   for (const std::string line : {"horizon = 0.5\n", "output_step = 0.1\n"}) text.erase(text.find(line), line.size());
-  const MachineResult machine = seenResults(text).machine;
+  const PictureResult machine = seenResults(text).picture;
   ASSERT_EQ(machine.places.time, std::vector<double>{0});
   const std::size_t y = 3 * pointNamed(machine, "tip") + 1;
   for (std::size_t s = 0; s < machine.places.sample.size(); ++s) {
@@ -167,7 +167,7 @@ TEST(SeenMachine, OfKinematicsIsEnclosedWhereItStands) {
 }
 
 TEST(SeenMachine, OfPlainDifferentialEquationsIsNotThere) {
-  const MachineResult machine = seenResults(R"([study]
+  const PictureResult machine = seenResults(R"([study]
 analysis = "dynamics"
 horizon = 0.5
 output_step = 0.1
@@ -184,7 +184,7 @@ quantity = "prey"
 [stochastic]
 samples = 8
 )")
-                                    .machine;
+                                    .picture;
   EXPECT_FALSE(machine.present);
   EXPECT_FALSE(machine.places.present);
   EXPECT_THAT(machine.points, IsEmpty());
@@ -197,7 +197,7 @@ TEST(SeenMachine, OfManyPointsShowsFewerTimesAndEnclosesNone) {
     more += "[[mechanism.element]]\ntype = \"link\"\nname = \"l" + std::to_string(i) + "\"\nfrom = \"tip\"\nto = \"e" +
             std::to_string(i) + "\"\nvector = [0, 0.01, " + std::to_string(0.001 * static_cast<double>(i)) + "]\n";
   text.insert(text.find("[[uncertain]]"), more);
-  const MachineResult machine = seenResults(text).machine;
+  const PictureResult machine = seenResults(text).picture;
   EXPECT_EQ(machine.places.time.size(), leastSeenTimes - 5u);
   EXPECT_TRUE(machine.places.lower.empty());
   EXPECT_NE(machine.why.find("moving points"), std::string::npos);

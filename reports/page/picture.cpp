@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "reports/drawing/machine.hpp"
+#include "reports/drawing/picture.hpp"
 #include "reports/page/page.hpp"
 #include "reports/words.hpp"
 
@@ -16,7 +16,7 @@ std::string key(std::string_view name, const std::string& words) {
 }
 
 std::string keysOf(const Results& results) {
-  const MachineResult& machine = results.machine;
+  const PictureResult& machine = results.picture;
   const bool moves = machine.places.time.size() > 1;
   std::string keys = "<ul class=\"keys\" aria-label=\"Key to the picture\">\n";
   keys += key("nominal", moves ? "nominal motion" : "nominal");
@@ -32,7 +32,7 @@ std::string keysOf(const Results& results) {
 }
 
 /// What is shown, and what is not.
-std::string caption(const MachineResult& machine, const Scene& scene) {
+std::string caption(const PictureResult& machine, const Scene& scene) {
   std::string words = scene.view.isSideView ? "Side view" : "View from above and aside";
   words += ", at the start";
   if (!machine.why.empty()) words += "; " + machine.why;
@@ -42,7 +42,7 @@ std::string caption(const MachineResult& machine, const Scene& scene) {
 }  // namespace
 
 std::string machineSection(const Report& report) {
-  const MachineResult& machine = report.results.machine;
+  const PictureResult& machine = report.results.picture;
   if (!machine.present || machine.points.empty() || machine.places.nominal.empty()) return {};
   const Places& places = machine.places;
   const std::size_t numbers = places.nominal.size() + places.samples.size() + places.lower.size() + places.upper.size();
