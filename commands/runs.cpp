@@ -16,6 +16,7 @@
 #include "commands/keeping.hpp"
 #include "commands/options.hpp"
 #include "commands/verdict_lines.hpp"
+#include "reports/json.hpp"
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
 #include "reports/words.hpp"

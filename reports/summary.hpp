@@ -1,22 +1,11 @@
-// What commands say of results on standard output: one JSON object for programs, or lines and tables for people.
+// What commands say of results to people: lines and tables.
 #pragma once
 
-#include <limits>
 #include <string>
 
 #include "studies/results/results.hpp"
 
 namespace gamut {
-
-/// Where the run's files lie; empty if there is none.
-struct ResultFiles {
-  std::string results, report;
-  double reportCpu = std::numeric_limits<double>::quiet_NaN();  ///< s: of drawing the page and writing it
-};
-
-/// One JSON object on one line; keys: docs/json.md. Numbers are the shortest decimals that give the same double back;
-/// what is not finite is null, and so is an empty verdict.
-std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files = {});
 
 /// A table of the outputs at the last time reached, and what it cost; several lines, the last one ended.
 std::string textSummary(const Results& results);

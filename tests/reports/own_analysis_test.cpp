@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "reports/json.hpp"
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
 #include "reports/verdict.hpp"

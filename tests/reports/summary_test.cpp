@@ -1,5 +1,6 @@
 // The JSON object holds what the results hold, and nothing that JSON cannot say.
 #include "reports/summary.hpp"
+#include "reports/json.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -18,6 +18,7 @@
 
 #include "reports/drawing/axes.hpp"
 #include "reports/drawing/paper.hpp"
+#include "reports/json.hpp"
 #include "reports/report.hpp"
 #include "reports/requirements.hpp"
 #include "reports/summary.hpp"

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/json.hpp"
 #include "reports/report.hpp"
-#include "reports/summary.hpp"
 #include "reports/verdict.hpp"
 #include "studies/analyses/derivatives.hpp"
 #include "studies/results/extremes.hpp"
