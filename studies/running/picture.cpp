@@ -82,11 +82,11 @@ std::vector<std::size_t> shownSamples(const Sampling& sampling, Plan plan) {
   return numbers;
 }
 
-/// The outputs, then what the program takes roots and logarithms of.
+/// The outputs, then what has to have one sign, as the arguments of roots and logarithms.
 Program withArguments(const Program& program) {
   std::vector<int> nodes = program.outputNodes();
   for (const Node& node : program.nodes())
-    if (node.op == Op::sqrt || node.op == Op::log) nodes.push_back(node.a);
+    if (isOneSided(domainOf(node.op))) nodes.push_back(node.a);
   return Recorder(program).finish(nodes);
 }
 
