@@ -307,7 +307,7 @@ Json rangesObject(const Results& results) {
       const std::optional<MotionRange> range = motionRange(results, j, source);
       of[word] = nullptr;
       if (!range) continue;
-      const auto extreme = [](const Extreme& e) {
+      const auto extreme = [](const MotionExtreme& e) {
         return Json{{"value", number(e.value)}, {"from", e.from}, {"until", e.until}};
       };
       of[word] = {{"least", extreme(range->least)}, {"greatest", extreme(range->greatest)}, {"until", range->until}};

@@ -422,7 +422,7 @@ class Wording {
     if (verdict_.endsEarly) return text + (moves() ? horizonText() : " An analysis ended early.");
     if (verdict_.unbounded > 0) text += " Not every output is bounded.";
     if (verdict_.gap == Gap::probability) text += " Their probabilities were not bounded to the end.";
-    if (verdict_.gap == Gap::further) text += fmt::format(" Their {}.", unfinished(results_));
+    if (verdict_.gap == Gap::further) text += fmt::format(" Their {}.", unfinishedPart(results_));
     if (verdict_.gap == Gap::stopped) text += fmt::format(" Not all was done: {}.", results_.stopped);
     return text + (verdict_.missing > 0 ? " Not every number was there to compare." : "");
   }

@@ -50,7 +50,7 @@ std::optional<MotionRange> motionRange(const Results& results, std::size_t outpu
   }
   if (known == 0) return {};
   range.widthAtTimes = high - low;
-  const auto take = [&](Extreme& extreme, std::size_t i, double bound, double here, double before, bool isLower) {
+  const auto take = [&](MotionExtreme& extreme, std::size_t i, double bound, double here, double before, bool isLower) {
     if (std::isnan(bound) || (isLower ? bound >= extreme.value : bound <= extreme.value)) return;
     constexpr double alike = 1e-3, shown = 1e-4;  // of the range; of the number that is told, with four digits
     const double near = std::min(alike * (high - low), shown * std::abs(bound));
@@ -65,7 +65,8 @@ std::optional<MotionRange> motionRange(const Results& results, std::size_t outpu
     take(range.least, i, of.lower(i, output), at->lower(i, output), i > 0 ? at->lower(i - 1, output) : 0, true);
     take(range.greatest, i, of.upper(i, output), at->upper(i, output), i > 0 ? at->upper(i - 1, output) : 0, false);
   }
-  const auto spread = [&](Extreme& extreme, const Table& bounds, double farthest) {  // as far nearly all of the time
+  const auto spread = [&](MotionExtreme& extreme, const Table& bounds,
+                          double farthest) {  // as far nearly all of the time
     constexpr double alike = 0.05, nearlyAll = 0.9;
     std::size_t near = 0;
     for (std::size_t i = 0; i < bounds.times; ++i)
@@ -114,7 +115,7 @@ std::string rangesCaption(const Results& results) {
                                             reachedText(any->until), any->isBetween ? "" : ", at the output times");
 }
 
-std::string whenText(const Results& results, const Extreme& extreme) {
+std::string whenText(const Results& results, const MotionExtreme& extreme) {
   if (results.horizon == 0 || std::isnan(extreme.value)) return {};
   const bool isAlways = results.time.size() > 2 && extreme.from == results.time.front() &&
                         std::ranges::count_if(results.time, [&](double t) { return t <= extreme.until; }) > 2;

@@ -11,7 +11,7 @@
 namespace gamut {
 
 /// A bound, and where it comes from: an output time, or what lies between two of them.
-struct Extreme {
+struct MotionExtreme {
   double value = std::numeric_limits<double>::quiet_NaN();
   double from = 0, until = 0;  ///< s
 };
@@ -24,7 +24,7 @@ struct MotionRange {
   bool isBetween = false;     ///< of all instants, not of the output times alone
   bool isAtAllTimes = false;  ///< of all of the study's output times
   double until = 0;           ///< s: the last time
-  Extreme least, greatest;
+  MotionExtreme least, greatest;
   double width = 0;         ///< of what is known at an output time, at most
   double widthAtTimes = 0;  ///< from the least to the greatest that is known at output times
 
@@ -49,7 +49,7 @@ bool isOneValue(const Results& results, double time, std::size_t output);
 std::string rangesCaption(const Results& results);
 
 /// "at 0.3 s", "between 0.3 s and 0.4 s", "throughout"; empty where no time passes.
-std::string whenText(const Results& results, const Extreme& extreme);
+std::string whenText(const Results& results, const MotionExtreme& extreme);
 
 /// The same of the least and the greatest; empty too of one that is beyond zero by roundings, which chose its time.
 std::string whenLeast(const Results& results, const MotionRange& range);

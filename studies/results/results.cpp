@@ -73,7 +73,7 @@ std::span<const MarginInfo> marginsOf(const Results& results, const RequirementR
 
 bool isMargin(const Results& results, std::size_t output) { return requirementOf(results, output) != nullptr; }
 
-std::string unfinished(const Results& results) {
+std::string unfinishedPart(const Results& results) {
   for (const Boxed<FurtherPart>& part : results.further)
     if (std::string text = part->unfinished(); !text.empty()) return text;
   return {};

@@ -72,7 +72,7 @@ const std::vector<Group> describe(const Results& results);
 std::vector<std::string> differences(const Results& one, const Results& other);
 
 /// What a further part says that was stopped, the first one; empty if none was.
-std::string unfinished(const Results& results);
+std::string unfinishedPart(const Results& results);
 
 /// The time up to which every analysis that was asked for got (s).
 double reachedTime(const Results& results);

@@ -208,7 +208,7 @@ class Finder {
     if (finding_.endsEarly || isUnfinished || finding_.missing > 0) return Gap::end;
     if (finding_.unbounded > 0) return Gap::unbounded;
     if (results_.distribution.present && !results_.distribution.stopped.empty()) return Gap::probability;
-    if (!unfinished(results_).empty()) return Gap::further;
+    if (!unfinishedPart(results_).empty()) return Gap::further;
     return results_.stopped.empty() ? Gap::none : Gap::stopped;
   }
 
