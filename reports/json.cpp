@@ -5,9 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "studies/results/extremes.hpp"
 #include "studies/results/instants.hpp"
@@ -131,81 +137,66 @@ Json valueOf(const FieldValue& value) {
                     value);
 }
 
-/// What a part that describes itself says of each output, and of each quantity if it does, at the last time: of the
-/// field's own times or of those up to which the part came.
-class OutputNumbers {
- public:
-  OutputNumbers(const Results& results, const FurtherPart& part) : results_(results), part_(part) {}
+/// The numbers of a field, and which end of bounds they are, 0 or 1; -1: neither.
+std::vector<std::pair<std::span<const double>, int>> numbersOf(const Field& field) {
+  const int end = field.name.ends_with("lower") ? 0 : field.name.ends_with("upper") ? 1 : -1;
+  if (const auto* values = std::get_if<std::vector<double>*>(&field.value)) return {{**values, end}};
+  if (const auto* table = std::get_if<Table*>(&field.value)) return {{(*table)->data, end}};
+  if (const auto* bounds = std::get_if<Envelope*>(&field.value))
+    return {{(*bounds)->lower.data, 0}, {(*bounds)->upper.data, 1}};
+  return {};
+}
 
-  /// Into {output name → [quantity →] `name` → number}, as entry `end` of two if it is one end of bounds; without a
-  /// name into its place.
-  void add(Json& outputs, const std::string& name, const Field& field, std::size_t times, int end = -1) const {
-    const auto* values = std::get_if<std::vector<double>*>(&field.value);
-    if (values != nullptr) add(outputs, name, field.dimensions, **values, times, end);
-    if (const auto* table = std::get_if<Table*>(&field.value))
-      add(outputs, name, field.dimensions, (*table)->data, times, end);
-    if (const auto* bounds = std::get_if<Envelope*>(&field.value)) {
-      add(outputs, name, field.dimensions, (*bounds)->lower.data, times, 0);
-      add(outputs, name, field.dimensions, (*bounds)->upper.data, times, 1);
+/// So many times of each dimension of times, by its path.
+using Reached = std::map<std::string, std::size_t, std::less<>>;
+
+/// Adds what a field says of each output, and of each quantity if it does, at the last of its times: {output name →
+/// [quantity →] name → number or [lower, upper]}; what is called "lower" or "upper" alone without a name.
+void addOutputs(Json& outputs, const Results& results, const Field& field, const Reached& reached) {
+  std::vector<std::string_view> dimensions = field.dimensions;
+  const auto times = reached.find(dimensions.front());
+  if (times != reached.end()) dimensions.erase(dimensions.begin());
+  const bool isOfQuantity = dimensions.size() == 2 && dimensions[1] == dimension::quantity;
+  if (dimensions.empty() || dimensions[0] != dimension::output || dimensions.size() != (isOfQuantity ? 2 : 1)) return;
+  if (times != reached.end() && times->second == 0) return;
+  const std::size_t quantities = isOfQuantity ? results.uncertain.size() : 1;
+  const std::size_t count = results.outputs.size() * quantities;
+  const std::size_t begin = times == reached.end() ? 0 : (times->second - 1) * count;
+  for (const auto& [numbers, end] : numbersOf(field)) {
+    std::string name(field.name);
+    if (name.ends_with("lower") || name.ends_with("upper"))
+      name.resize(name.size() - std::min<std::size_t>(6, name.size()));
+    for (std::size_t i = 0; i < count && begin + i < numbers.size(); ++i) {
+      Json* place = &outputs[results.outputs[i / quantities].name];
+      if (isOfQuantity) place = &(*place)[results.uncertain[i % quantities].name];
+      if (!name.empty()) place = &(*place)[name];
+      if (end >= 0) place = &(*place)[static_cast<std::size_t>(end)];
+      *place = number(numbers[begin + i]);
     }
   }
-
-  /// How many of the study's times the part has reached.
-  std::size_t reachedTimes() const {
-    return static_cast<std::size_t>(std::ranges::upper_bound(results_.time, part_.reached) - results_.time.begin());
-  }
-
- private:
-  void add(Json& outputs, const std::string& name, const std::vector<std::string_view>& dimensions,
-           const std::vector<double>& values, std::size_t times, int end) const {
-    const bool isOfTime = dimensions.front() != dimension::output;
-    const std::size_t k = isOfTime ? 1 : 0;
-    if (dimensions.size() <= k || dimensions[k] != dimension::output || (isOfTime && times == 0)) return;
-    const bool isOfQuantity = dimensions.size() == k + 2 && dimensions[k + 1] == dimension::quantity;
-    if (dimensions.size() > k + (isOfQuantity ? 2 : 1)) return;
-    const std::size_t quantities = isOfQuantity ? results_.uncertain.size() : 1, count = results_.outputs.size();
-    for (std::size_t o = 0; o < count; ++o)
-      for (std::size_t q = 0; q < quantities; ++q) {
-        const std::size_t i = ((isOfTime ? times - 1 : 0) * count + o) * quantities + q;
-        if (i >= values.size()) continue;
-        Json* place = &outputs[results_.outputs[o].name];
-        if (isOfQuantity) place = &(*place)[results_.uncertain[q].name];
-        if (!name.empty()) place = &(*place)[name];
-        if (end >= 0) place = &(*place)[static_cast<std::size_t>(end)];
-        *place = number(values[i]);
-      }
-  }
-
-  const Results& results_;
-  const FurtherPart& part_;
-};
+}
 
 /// Everything single that it says of itself, and the numbers of outputs at its last time; the file has all.
 Json objectOf(const Results& results, const FurtherPart& part) {
   if (!part.present) return nullptr;
   Json object = Json::object(), outputs = Json::object();
-  const OutputNumbers numbers(results, part);
+  Reached reached{
+      {std::string(dimension::time),
+       static_cast<std::size_t>(std::ranges::upper_bound(results.time, part.reached) - results.time.begin())}};
   std::vector<Group> groups;
   const_cast<FurtherPart&>(part).describe(groups);  // resize, which alone changes anything, is not called
-  for (const Group& group : groups) {
-    if (group.isList() || group.size == 0) continue;
-    std::size_t times = numbers.reachedTimes();
-    for (const Field& field : group.fields(0)) {
+  for (const Group& group : groups)
+    for (const Field& field : group.isList() || group.size == 0 ? std::vector<Field>() : group.fields(0)) {
       const std::string name(field.name);
       if (field.dimensions.empty()) {
         if (name != "stopped") object[name] = valueOf(field.value);
-      } else if (isScale(group, field)) {
-        const auto* own = std::get_if<std::vector<double>*>(&field.value);
-        if (own == nullptr) continue;
-        times = (*own)->size();
-        object[name] = times == 0 ? Json(nullptr) : number((*own)->back());
-      } else {
-        const int end = name.ends_with("lower") ? 0 : name.ends_with("upper") ? 1 : -1;
-        const std::size_t stem = end < 0 ? name.size() : name.size() - std::min<std::size_t>(name.size(), 6);
-        numbers.add(outputs, name.substr(0, stem), field, times, end);
+      } else if (!isScale(group, field)) {
+        addOutputs(outputs, results, field, reached);
+      } else if (const auto* times = std::get_if<std::vector<double>*>(&field.value)) {
+        reached[pathOf(group, field)] = (*times)->size();
+        object[name] = (*times)->empty() ? Json(nullptr) : number((*times)->back());
       }
     }
-  }
   object["outputs"] = std::move(outputs);
   return object;
 }

@@ -46,7 +46,9 @@ class FurtherAnalysis {
 template <class Self, class Found>
 class AnalysisOf : public FurtherAnalysis {
  public:
-  std::unique_ptr<FurtherAnalysis> copy() const override { return std::make_unique<Self>(static_cast<const Self&>(*this)); }
+  std::unique_ptr<FurtherAnalysis> copy() const override {
+    return std::make_unique<Self>(static_cast<const Self&>(*this));
+  }
   std::unique_ptr<FurtherPart> part() const override { return std::make_unique<Found>(); }
   void find(Run& run, FurtherPart& part) const final {
     static_cast<const Self&>(*this).find(run, static_cast<Found&>(part));

@@ -10,7 +10,7 @@ namespace gamut {
 template <class T>
 class Boxed {
  public:
-  Boxed(std::unique_ptr<T> value) : value_(std::move(value)) {}
+  explicit Boxed(std::unique_ptr<T> value) : value_(std::move(value)) {}
   Boxed(const Boxed& other) : value_(other.value_->copy()) {}
   Boxed(Boxed&&) noexcept = default;
   Boxed& operator=(const Boxed& other) {
