@@ -151,8 +151,9 @@ std::vector<std::pair<std::span<const double>, int>> numbersOf(const Field& fiel
 using Reached = std::map<std::string, std::size_t, std::less<>>;
 
 /// Adds what a field says of each output, and of each quantity if it does, at the last of its times: {output name →
-/// [quantity →] name → number or [lower, upper]}; what is called "lower" or "upper" alone without a name.
-void addOutputs(Json& outputs, const Results& results, const Field& field, const Reached& reached) {
+/// [quantity →] name → number or [lower, upper]}; what is called "lower" or "upper" alone by the name `ofBounds`.
+void addOutputs(Json& outputs, const Results& results, const Field& field, const Reached& reached,
+                const std::string& ofBounds) {
   std::vector<std::string_view> dimensions = field.dimensions;
   const auto times = reached.find(dimensions.front());
   if (times != reached.end()) dimensions.erase(dimensions.begin());
@@ -166,6 +167,7 @@ void addOutputs(Json& outputs, const Results& results, const Field& field, const
     std::string name(field.name);
     if (name.ends_with("lower") || name.ends_with("upper"))
       name.resize(name.size() - std::min<std::size_t>(6, name.size()));
+    if (name.empty()) name = ofBounds;
     for (std::size_t i = 0; i < count && begin + i < numbers.size(); ++i) {
       Json* place = &outputs[results.outputs[i / quantities].name];
       if (isOfQuantity) place = &(*place)[results.uncertain[i % quantities].name];
@@ -185,13 +187,18 @@ Json objectOf(const Results& results, const FurtherPart& part) {
        static_cast<std::size_t>(std::ranges::upper_bound(results.time, part.reached) - results.time.begin())}};
   std::vector<Group> groups;
   const_cast<FurtherPart&>(part).describe(groups);  // resize, which alone changes anything, is not called
+  bool areBoundsAlone = true;                       // then they need no name
+  for (const Group& group : groups)
+    for (const Field& field : group.isList() || group.size == 0 ? std::vector<Field>() : group.fields(0))
+      areBoundsAlone = areBoundsAlone && (field.dimensions.empty() || isScale(group, field) || field.name == "lower" ||
+                                          field.name == "upper");
   for (const Group& group : groups)
     for (const Field& field : group.isList() || group.size == 0 ? std::vector<Field>() : group.fields(0)) {
       const std::string name(field.name);
       if (field.dimensions.empty()) {
         if (name != "stopped") object[name] = valueOf(field.value);
       } else if (!isScale(group, field)) {
-        addOutputs(outputs, results, field, reached);
+        addOutputs(outputs, results, field, reached, areBoundsAlone ? "" : "bounds");
       } else if (const auto* times = std::get_if<std::vector<double>*>(&field.value)) {
         reached[pathOf(group, field)] = (*times)->size();
         object[name] = (*times)->empty() ? Json(nullptr) : number((*times)->back());

@@ -225,6 +225,8 @@ class MechanismReader {
     } catch (const WrongNumber& error) {
       const auto place = places_.find(error.number());
       source_.fail(place == places_.end() ? at : *place->second, error.problem(), error.expected());
+    } catch (const UnitError& error) {  // which may quote what the user wrote, semicolons included
+      source_.fail(at, error.problem(), error.expected());
     } catch (const Refusal& error) {
       source_.failWith(at, error.problem(), error.expected().empty() ? thatFits : error.expected());
     } catch (const std::invalid_argument& error) {

@@ -25,7 +25,8 @@ using ::testing::Not;
 struct CoreResult final : FurtherPart {
   double share = 0;
   Envelope core;
-  std::vector<double> widened;  ///< s, one an output
+  std::vector<double> widened;       ///< s, one an output
+  std::vector<double> lower, upper;  ///< likewise, any bounds
 
   std::string_view key() const override { return "core"; }
   std::string title() const override { return "cores"; }
@@ -36,6 +37,8 @@ struct CoreResult final : FurtherPart {
       using namespace dimension;
       return c.fieldsAnd({{"share", &c.share, unit::one, "of the width", {}, allowed::share},
                           {"core", &c.core, unit::ofOutput, "middle of the enclosure", {time, output}},
+                          {"lower", &c.lower, unit::ofOutput, "any bounds", {output}},
+                          {"upper", &c.upper, unit::ofOutput, "upper bound", {output}},
                           {"widened", &c.widened, unit::second, "when it is wider than at first", {output}}});
     }));
   }
@@ -63,6 +66,10 @@ class CoreAnalysis final : public AnalysisOf<CoreAnalysis, CoreResult> {
     result.reached = run.results.interval.reached;
     result.core = run.emptyBounds();
     result.widened.assign(run.study.outputs.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t k = 0; k < run.study.outputs.size(); ++k) {
+      result.lower.push_back(static_cast<double>(k));
+      result.upper.push_back(static_cast<double>(k + 1));
+    }
     const auto width = [&](std::size_t i, std::size_t k) { return at.upper(i, k) - at.lower(i, k); };
     for (std::size_t k = 0; k < run.study.outputs.size(); ++k)
       for (std::size_t i = 0; i < run.study.times.size(); ++i) {
@@ -127,6 +134,7 @@ TEST(OwnAnalysis, IsFoundKeptAndTold) {
   EXPECT_EQ(json["share"], 0.5);
   EXPECT_EQ(json["reached"], 0.5);
   EXPECT_EQ(json["why"], nullptr);
+  EXPECT_EQ(json["outputs"]["angle"]["bounds"], (nlohmann::json{0, 1}));  // others with names stand beside them
   EXPECT_EQ(json["outputs"]["angle"]["core"], (nlohmann::json{lower, upper}));
   EXPECT_EQ(json["outputs"]["angle"]["widened"], 0);  // at once, of half the width
   EXPECT_THAT(textSummary(read), HasSubstr("cores: found up to 0.5 s\n"));
