@@ -14,6 +14,7 @@
 namespace gamut {
 
 class Settings;
+struct Results;
 struct Run;
 struct Study;
 
@@ -39,10 +40,10 @@ class FurtherAnalysis {
   virtual std::unique_ptr<FurtherPart> part() const = 0;
   /// From the run's machine and what it has found before. What is spent, an interrupt and a lack of memory are noted by
   /// the run.
-  virtual void find(Run& run, FurtherPart& part) const = 0;
+  virtual void find(Run& run, const Results& before, FurtherPart& part) const = 0;
 };
 
-/// One that finds a `Found`: Self has `void find(Run&, Found&) const`.
+/// One that finds a `Found`: Self has `void find(Run&, const Results&, Found&) const`.
 template <class Self, class Found>
 class AnalysisOf : public FurtherAnalysis {
  public:
@@ -50,8 +51,8 @@ class AnalysisOf : public FurtherAnalysis {
     return std::make_unique<Self>(static_cast<const Self&>(*this));
   }
   std::unique_ptr<FurtherPart> part() const override { return std::make_unique<Found>(); }
-  void find(Run& run, FurtherPart& part) const final {
-    static_cast<const Self&>(*this).find(run, static_cast<Found&>(part));
+  void find(Run& run, const Results& before, FurtherPart& part) const final {
+    static_cast<const Self&>(*this).find(run, before, static_cast<Found&>(part));
   }
 };
 

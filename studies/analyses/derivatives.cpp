@@ -8,7 +8,7 @@
 #include "analyses/flow/derivatives.hpp"
 #include "studies/analysis.hpp"
 #include "studies/running/flow_of_study.hpp"
-#include "studies/running/units.hpp"
+#include "studies/running/context.hpp"
 #include "studies/settings.hpp"
 
 namespace gamut {
@@ -68,7 +68,7 @@ class DerivativeAnalysis final : public AnalysisOf<DerivativeAnalysis, Derivativ
     return Refusal{"derivatives", "derivatives are enclosed in dynamics alone", "no such key"};
   }
 
-  void find(Run& run, DerivativeResult& result) const {
+  void find(Run& run, const Results& /*before*/, DerivativeResult& result) const {
     std::vector<std::size_t> quantities;
     std::vector<int> by;
     for (const auto [number, slot] : run.machine.constants) {

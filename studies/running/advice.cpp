@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "studies/running/flow_of_study.hpp"
@@ -23,7 +24,8 @@ constexpr const char* parts[] = {"an eighth", "a quarter", "half", "three quarte
 
 class Trials {
  public:
-  Trials(Run& run, double work) : run_(run), options_(enclosureOptions(run)), left_(work) {
+  Trials(const Run& run, FlowOptions options, const std::vector<double>& nonlinear, double work)
+      : run_(run), options_(std::move(options)), nonlinear_(nonlinear), left_(work) {
     options_.enough = 1;  // twice as wide says something; a run that is asked for more comes as far
   }
 
@@ -75,8 +77,9 @@ class Trials {
 
   /// "± 4 %", "± 0.2 rad", "[1, 2.5] kg"; deviations rounded down, since more was not tried.
   std::string deviation(std::size_t quantity, double factor) const {
-    const Uncertain& u = run_.study.uncertain[quantity].uncertain;
-    const Told told(run_.results.uncertain[quantity]);
+    const UncertainQuantity& of = run_.study.uncertain[quantity];
+    const Uncertain& u = of.uncertain;
+    const Told told(of.unit, of.told);
     const double below = factor * (u.nominal - u.range.lower()), above = factor * (u.range.upper() - u.nominal);
     constexpr double alike = 1e-6;
     if (std::fabs(above - below) > alike * (above + below))
@@ -101,8 +104,8 @@ class Trials {
     std::iota(quantities.begin(), quantities.end(), std::size_t{0});
     std::erase_if(quantities, [&](std::size_t q) { return isThin(run_.study.uncertain[q].uncertain.range); });
     std::ranges::stable_sort(quantities, std::ranges::greater{}, [&](std::size_t q) {
-      const auto slot = static_cast<std::size_t>(run_.motion.slot[q]);
-      return slot < run_.enclosed.nonlinear.size() ? run_.enclosed.nonlinear[slot] : 0.0;
+      const auto slot = static_cast<std::size_t>(run_.machine.motion.slot[q]);
+      return slot < nonlinear_.size() ? nonlinear_[slot] : 0.0;
     });
     return quantities;
   }
@@ -111,7 +114,7 @@ class Trials {
     Box box = run_.machine.box;
     for (const std::size_t q : quantities) {
       const Uncertain& u = run_.study.uncertain[q].uncertain;
-      box[static_cast<std::size_t>(run_.motion.slot[q])] =
+      box[static_cast<std::size_t>(run_.machine.motion.slot[q])] =
           Interval(u.nominal) + Interval(factor) * (u.range - Interval(u.nominal));
     }
     return tries(box, options_) == true;
@@ -130,32 +133,34 @@ class Trials {
     return tube.reached() == run_.study.horizon && tube.tightness() <= 2;
   }
 
-  Run& run_;
+  const Run& run_;
   FlowOptions options_;
+  const std::vector<double>& nonlinear_;                   // Tube::nonlinear
   static constexpr double least = 0.05 * Work::perSecond;  // less is not begun with
   double left_;                                            // work
 };
 
 }  // namespace
 
-void seekAdvice(Run& run) {
-  Enclosed& enclosed = run.enclosed;
-  const bool isEnclosed = run.study.asksFor<IntervalResult>() || run.study.asksFor<FuzzyResult>();
-  const bool moves = run.study.analysis != Study::Analysis::kinematics;
-  if (!isEnclosed || !moves || enclosed.why.empty() || !(enclosed.reached < run.study.horizon)) return;
-  const double start = processCpuSeconds();
-  run.watch.begin(Watch::Stage::rest);
-  if (*run.watch.stop()) return;
-  const double basis = std::max(run.spent.enclosure + run.spent.samples, Shares::least * Work::perSecond);
-  constexpr double part = 0.5;  // of a limit's rest, in which other answers are to come
-  const double rest = part * std::max(0.0, run.results.limits.time - run.watch.spent()) * Work::perSecond;
-  bool isTried = false;
-  const std::string found = Trials(run, std::min(run.study.shares.advice * basis, rest)).find(isTried);
-  // A limit that ended it is named anyhow, unless more of it did not do.
-  const bool isGuess = isTried || enclosed.cause.kind == FlowCause::Kind::remainder;
-  if (!found.empty() || isGuess) enclosed.advice = found;
-  run.results.interval.advice = run.study.asksFor<IntervalResult>() ? enclosed.advice : "";
-  addCost(run.results, "advice", processCpuSeconds() - start);
+void seekAdvice(Run& run, const OutputScales& scales, Enclosure& enclosure, Results& results) {
+  const bool isShort = !enclosure.why.empty() && enclosure.reached < run.study.horizon;
+  if (!run.isEnclosed() || !run.moves() || !isShort) return;
+  double cpu = 0;
+  {
+    const Charge charge(nullptr, &cpu);
+    run.watch.begin(Watch::Stage::rest);
+    if (*run.watch.stop()) return;
+    constexpr double part = 0.5;  // of a limit's rest, in which other answers are to come
+    const double rest = part * std::max(0.0, run.limits.time - run.watch.spent()) * Work::perSecond;
+    const double work = std::min(run.study.shares.advice * run.basis(), rest);
+    bool isTried = false;
+    const std::string found = Trials(run, enclosureOptions(run, scales), enclosure.nonlinear, work).find(isTried);
+    // A limit that ended it is named anyhow, unless more of it did not do.
+    const bool isGuess = isTried || enclosure.cause.kind == FlowCause::Kind::remainder;
+    if (!found.empty() || isGuess) enclosure.advice = found;
+  }
+  results.interval.advice = run.study.asksFor<IntervalResult>() ? enclosure.advice : "";
+  addCost(results, "advice", cpu);
 }
 
 }  // namespace gamut

@@ -22,36 +22,35 @@ bool isProvedInPart(const Results& results) {
 
 }  // namespace
 
-void takeDisputes(Run& run, const Comparison& found, int level) {
-  ComparisonResult& comparison = run.results.comparison;
+void takeDisputes(const Watch& watch, const Comparison& found, int level, ComparisonResult& comparison) {
   for (const Dispute& d : found.disputes) {
     comparison.disputed.push_back({static_cast<std::int64_t>(d.number), d.time, d.output, d.value, d.lower, d.upper,
                                    d.distance, d.error, d.decided, d.outside, level, d.farthest});
-    if (isInterrupted(comparison.disputed.back())) comparison.why = run.watch.why();
+    if (isInterrupted(comparison.disputed.back())) comparison.why = watch.why();
   }
   comparison.excursion = std::max(comparison.excursion, found.excursion);
 }
 
 /// A run that goes on from one that was stopped brings the samples to their end, and proves nothing anew.
-void noteStop(Run& run) {
-  std::string stop = run.failure.empty() ? run.watch.firstStop() : std::string(internalFailure) + run.failure;
-  for (const FailedSampleResult& sample : run.results.stochastic.failed)
+void noteStop(const Run& run, const std::string& failure, Results& results) {
+  std::string stop = failure.empty() ? run.watch.firstStop() : std::string(internalFailure) + failure;
+  for (const FailedSampleResult& sample : results.stochastic.failed)
     if (stop.empty() && sample.why.ends_with("CPU for a sample was reached")) stop = sample.why;
-  if (!stop.empty() || !isProvedInPart(run.results)) run.results.stopped = std::move(stop);
+  if (!stop.empty() || !isProvedInPart(results)) results.stopped = std::move(stop);
 }
 
-void compareAnswers(Run& run) {
+void compareAnswers(const Run& run, std::size_t reachedTimes, const SampledMotion& samples, Results& results) {
   const Study& study = run.study;
-  if (!study.asksFor<StochasticResult>() || !(study.asksFor<IntervalResult>() || study.asksFor<FuzzyResult>())) return;
-  Results& results = run.results;
+  if (!study.asksFor<StochasticResult>() || !run.isEnclosed()) return;
   ComparisonResult& comparison = results.comparison;
   comparison.present = true;
-  const std::size_t sampled = run.ensemble && run.ensemble->integrated() > 0 ? run.ensemble->reachedTimes() : 0;
-  const std::size_t compared = std::min(run.enclosed.reachedTimes, sampled);
+  const std::size_t sampled =
+      samples.ensemble && samples.ensemble->integrated() > 0 ? samples.ensemble->reachedTimes() : 0;
+  const std::size_t compared = std::min(reachedTimes, sampled);
   const bool isOfTheStartAlone = study.times.size() > 1 && compared <= 1;
   if (study.asksFor<IntervalResult>() && sampled > 0 && !isOfTheStartAlone) {
-    Overestimation found = measureOverestimation({results.interval.at, run.enclosed.reachedTimes},
-                                                 results.stochastic.envelope, results.stochastic.error, floorsOf(run));
+    Overestimation found = measureOverestimation({results.interval.at, reachedTimes}, results.stochastic.envelope,
+                                                 results.stochastic.error, floorsOf(study, samples.scales));
     comparison.overestimation = std::move(found.ratio);
     comparison.excess = std::move(found.excess);
     comparison.maximum = found.maximum;
@@ -65,7 +64,7 @@ void compareAnswers(Run& run) {
     transformation.gap = gaps.gap;
     transformation.gapTime.clear();
     for (std::size_t i = 0; i < gaps.row.size(); ++i) {
-      const bool isNothing = !run.scales.empty() && run.scales[i % run.scales.size()].isNothing();
+      const bool isNothing = !samples.scales.empty() && samples.scales[i % samples.scales.size()].isNothing();
       if (isNothing) transformation.gap[i] = unknown;  // there is nothing that could be filled
       transformation.gapTime.push_back(gaps.row[i] < results.time.size() && !isNothing ? results.time[gaps.row[i]]
                                                                                        : unknown);

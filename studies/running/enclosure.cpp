@@ -24,143 +24,191 @@ void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values
   }
 }
 
-void encloseMotion(Run& run) {
-  FlowOptions flow = enclosureOptions(run);
-  flow.progress = run.progressOf("enclosure");
-  constexpr double ofCounted = 0.75;  // of a second of CPU: what is counted takes longer on a busy machine
-  flow.planned = ofCounted * limitsOf(run.study, run.options).enclosureTime;
-  if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
-  flow.modelled = flow.uncounted;
-  if (asksForDistributions(run.study)) flow.modelledAt = plainOutputs(run.study);
-  boundModels(run, flow);
-  flow.extremesAt = rowsOfExtremes(run.study);
-  const Shares& shares = run.study.shares;
-  const bool areAlone = run.study.requirements.empty() && !asksForDistributions(run.study);  // no other answers follow
-  flow.levelShare = shares.cuts + (areAlone ? shares.requirements + shares.probabilities : 0);
-  flow.levelBudget = flow.levelShare * std::max(run.spent.samples / Work::perSecond, Shares::least);
-  const Motion& motion = run.machine.equations();  // of the samples', what varies in time has a course
-  const Tube tube =
-      Flow(motion.f, motion.g, flow).enclose(run.machine.box, run.study.horizon, run.study.times, run.machine.levels);
-  if (tube.times() != run.study.times) throw std::logic_error("the flow's output times are not the study's");
-  Enclosed& enclosed = run.enclosed;
-  enclosed.reachedTimes = tube.reachedTimes();
-  enclosed.over = run.emptyBounds();
-  for (std::size_t i = 0; i < enclosed.reachedTimes; ++i) {
-    setRow(enclosed.at, i, tube.outputs(i));
-    setRow(enclosed.over, i, tube.outputsOver(i));
-    for (std::size_t level = 0; level < enclosed.cuts.size(); ++level)
-      setRow(enclosed.cuts[level], i, tube.cut(level, i));
+class Encloser {
+ public:
+  Encloser(Run& run, const Seen& seen, const OutputScales& scales, Places& places)
+      : run_(run), study_(run.study), seen_(seen), scales_(scales), places_(places) {}
+
+  void find() {
+    double work = 0, cpu = 0;
+    {
+      const Charge charge(&work, &cpu);
+      run_.watch.begin(Watch::Stage::enclosure);
+      clear();
+      try {
+        run_.moves() ? encloseMotion() : encloseConfiguration();
+      } catch (const std::bad_alloc&) {
+        run_.watch.memoryFailed();
+        clear();
+        found.why = run_.watch.why();
+      }
+    }
+    run_.spent.enclosure += work - levelWork_;
+    run_.spent.cuts += levelWork_;
+    found.models = {std::move(models_), study_.flow.tightness, run_.spent.enclosure, tighter()};
+    interval.cpu = cpu - cutCpu_;
+    cutCpu_ = cpu - (study_.asksFor<IntervalResult>() ? interval.cpu : 0);
+    interval.reached = found.reached;
+    interval.why = found.why;
+    interval.advice = found.advice;
   }
-  enclosed.reached = tube.reached();
-  enclosed.models = tube.models();
-  enclosed.extremes = tube.extremes();
-  if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();
-  enclosed.why = tube.wasStopped() ? run.watch.why() : tube.why();
-  enclosed.tightness = tube.tightness();
-  enclosed.advice = tube.wasStopped() ? adviceOf(run.watch) : tube.cause().advice();
-  enclosed.cause = tube.cause();
-  enclosed.nonlinear = tube.nonlinear();
-  if (const FlowCause& limit = tube.limitCause(); !tube.shortfall().empty()) {
+
+  void givePossibilities(FuzzyResult& fuzzy) {
+    fuzzy.present = true;
+    fuzzy.alpha = run_.machine.alpha;
+    fuzzy.outer = std::move(cuts_);
+    fuzzy.reached = found.reached;
+    fuzzy.why = found.why;
+    fuzzy.cpu = cutCpu_;
+    const Charge charge(nullptr, &fuzzy.cpu);
+    if (!run_.moves() && found.reachedTimes > 0) narrowByAssembly(run_, fuzzy);
+  }
+
+  Enclosure found;
+  IntervalResult interval;
+
+ private:
+  void encloseMotion() {
+    const Motion& motion = run_.machine.equations();  // of the samples', what varies in time has a course
+    const Tube tube = Flow(motion.f, motion.g, options())
+                          .enclose(run_.machine.box, study_.horizon, study_.times, run_.machine.levels);
+    if (tube.times() != study_.times) throw std::logic_error("the flow's output times are not the study's");
+    found.reachedTimes = tube.reachedTimes();
+    interval.over = run_.emptyBounds();
+    for (std::size_t i = 0; i < found.reachedTimes; ++i) {
+      setRow(interval.at, i, tube.outputs(i));
+      setRow(interval.over, i, tube.outputsOver(i));
+      for (std::size_t level = 0; level < cuts_.size(); ++level) setRow(cuts_[level], i, tube.cut(level, i));
+    }
+    found.reached = tube.reached();
+    models_ = tube.models();
+    found.extremes = tube.extremes();
+    found.nonlinear = tube.nonlinear();
+    tellEnd(tube);
+    interval.tightness = tube.tightness();
+    interval.pieces = tube.pieces();
+    interval.steps = tube.steps();
+    cutCpu_ = tube.cutCpuSeconds();
+    levelWork_ = tube.levelWork();
+    enclosePlaces(run_, seen_, tube, places_);
+  }
+
+  FlowOptions options() const {
+    FlowOptions flow = enclosureOptions(run_, scales_);
+    flow.progress = run_.progressOf("enclosure");
+    constexpr double ofCounted = 0.75;  // of a second of CPU: what is counted takes longer on a busy machine
+    flow.planned = ofCounted * run_.limits.enclosureTime;
+    if (seen_.isEnclosed) flow.aside = {seen_.positions, seen_.at};
+    flow.modelled = flow.uncounted;
+    if (asksForDistributions(study_)) flow.modelledAt = plainOutputs(study_);
+    boundModels(run_, flow);
+    flow.extremesAt = rowsOfExtremes(study_);
+    const Shares& shares = study_.shares;
+    const bool areAlone = study_.requirements.empty() && !asksForDistributions(study_);  // no other answers follow
+    flow.levelShare = shares.cuts + (areAlone ? shares.requirements + shares.probabilities : 0);
+    flow.levelBudget = flow.levelShare * std::max(run_.spent.samples / Work::perSecond, Shares::least);
+    return flow;
+  }
+
+  /// Why it ended early, or is loose, and what may help.
+  void tellEnd(const Tube& tube) {
+    if (tube.why() == Tube::outOfMemory) run_.watch.memoryFailed();
+    found.why = tube.wasStopped() ? run_.watch.why() : tube.why();
+    found.advice = tube.wasStopped() ? adviceOf(run_.watch) : tube.cause().advice();
+    found.cause = tube.cause();
+    if (tube.shortfall().empty()) return;
+    const FlowCause& limit = tube.limitCause();
     const bool isWatch = limit.kind == FlowCause::Kind::interrupted || limit.kind == FlowCause::Kind::outOfMemory;
-    const std::string why = isWatch ? run.watch.why() : limit.sentence();
-    enclosed.shortfall = tube.shortfall() + (why.empty() ? "" : ": " + why);
-    if (enclosed.why.empty()) enclosed.advice = isWatch ? adviceOf(run.watch) : limit.advice();
+    const std::string why = isWatch ? run_.watch.why() : limit.sentence();
+    interval.shortfall = tube.shortfall() + (why.empty() ? "" : ": " + why);
+    if (found.why.empty()) found.advice = isWatch ? adviceOf(run_.watch) : limit.advice();
   }
-  enclosed.pieces = tube.pieces();
-  enclosed.steps = tube.steps();
-  enclosed.cutCpu = tube.cutCpuSeconds();
-  run.spent.cuts += tube.levelWork();
-  run.spent.enclosure -= tube.levelWork();  // that of all is added there
-  enclosePlaces(run, tube);
-}
 
-/// Plain intervals and polynomials both enclose, so their intersection does; but where these found nothing, an output
-/// may have no value, of which those say nothing. What ends early leaves the former.
-void encloseConfiguration(Run& run) {
-  Enclosed& enclosed = run.enclosed;
-  const std::vector<Interval> direct = assembledOutputs(run.machine, run.machine.box);
-  std::vector<int> modelled = marginOutputs(run.study);
-  std::ranges::copy(plainOutputs(run.study), std::back_inserter(modelled));
-  const Image found = findImage(run.motion.motion.g, 0.0, run.machine.box, run.machine.levels, modelled,
-                                run.study.flow.degree, run.watch.stop());
-  const auto& images = found.ranges;
-  std::vector<Interval> enclosure = direct;
-  const auto narrow = [&](std::size_t image, Bounds& bounds) {
-    for (std::size_t j = 0; j < enclosure.size() && !images.empty(); ++j)
-      enclosure[j] = isEntire(images[image][j]) ? Interval::entire() : intersection(direct[j], images[image][j]);
-    setRow(bounds, 0, enclosure);
-  };
-  narrow(0, enclosed.at);
-  enclosed.direct = run.emptyBounds();
-  setRow(enclosed.direct, 0, direct);
-  for (std::size_t level = 0; level < enclosed.cuts.size(); ++level) narrow(level + 1, enclosed.cuts[level]);
-  if (images.empty()) enclosed.why = run.watch.why();
-  if (!run.study.requirements.empty() || asksForDistributions(run.study)) enclosed.models = found.models;
-  enclosed.extremes = {found.extremes};
-  enclosePlaces(run);
-  enclosed.pieces = static_cast<std::int64_t>(std::max<std::size_t>(found.parts, 1));
-  enclosed.reachedTimes = 1;
-}
+  /// Plain intervals and polynomials both enclose, so their intersection does; but where these found nothing, an output
+  /// may have no value, of which those say nothing. What ends early leaves the former.
+  void encloseConfiguration() {
+    const std::vector<Interval> direct = assembledOutputs(run_.machine, run_.machine.box);
+    std::vector<int> modelled = marginOutputs(study_);
+    std::ranges::copy(plainOutputs(study_), std::back_inserter(modelled));
+    const Image image = findImage(run_.machine.motion.motion.g, 0.0, run_.machine.box, run_.machine.levels, modelled,
+                                  study_.flow.degree, run_.watch.stop());
+    std::vector<Interval> enclosure = direct;
+    const auto narrow = [&](std::size_t which, Bounds& bounds) {
+      for (std::size_t j = 0; j < enclosure.size() && !image.ranges.empty(); ++j) {
+        const Interval& range = image.ranges[which][j];
+        enclosure[j] = isEntire(range) ? Interval::entire() : intersection(direct[j], range);
+      }
+      setRow(bounds, 0, enclosure);
+    };
+    narrow(0, interval.at);
+    interval.direct = run_.emptyBounds();
+    setRow(interval.direct, 0, direct);
+    for (std::size_t level = 0; level < cuts_.size(); ++level) narrow(level + 1, cuts_[level]);
+    if (image.ranges.empty()) found.why = run_.watch.why();
+    if (!study_.requirements.empty() || asksForDistributions(study_)) models_ = image.models;
+    found.extremes = {image.extremes};
+    enclosePlaces(run_, seen_, places_);
+    interval.pieces = static_cast<std::int64_t>(std::max<std::size_t>(image.parts, 1));
+    found.reachedTimes = 1;
+  }
 
-/// As if nothing had been found yet.
-void clear(Run& run) {
-  run.enclosed = {};
-  run.enclosed.at = run.emptyBounds();
-  run.enclosed.cuts.assign(run.machine.levels.size(), run.emptyBounds());
-  Places& places = run.results.picture.places;
-  places.lower = places.upper = places.sag = {};
-}
+  /// As if nothing had been found yet.
+  void clear() {
+    found = {};
+    interval = {};
+    models_.reset();
+    levelWork_ = cutCpu_ = 0;
+    interval.at = run_.emptyBounds();
+    cuts_.assign(run_.machine.levels.size(), run_.emptyBounds());
+    places_.lower = places_.upper = places_.sag = {};
+  }
+
+  /// A flow of the margins alone, or of all outputs.
+  TightenedModels::Enclose tighter() const {
+    if (!run_.moves()) return {};
+    return [&machine = run_.machine](FlowOptions flow) {
+      const auto model = asksForDistributions(machine.study) ? modelAll : modelMargins;
+      return model(machine, std::move(flow), machine.box);
+    };
+  }
+
+  Run& run_;
+  const Study& study_;
+  const Seen& seen_;
+  const OutputScales& scales_;
+  Places& places_;
+  std::vector<Bounds> cuts_;  // one a level
+  std::shared_ptr<const FlowModels> models_;
+  double levelWork_ = 0, cutCpu_ = 0;  // of the alpha-cuts
+};
 
 }  // namespace
 
-FlowOptions enclosureOptions(const Run& run) {
+FlowOptions enclosureOptions(const Run& run, const OutputScales& scales) {
   FlowOptions flow = flowOptions(run.machine, run.options.jobs, run.watch.stop());
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
-  flow.floors = floorsOf(run);
+  flow.floors = floorsOf(run.study, scales);
   for (const OutputInfo& output : run.study.outputs)
     flow.tightnessOf.push_back(std::isnan(output.tightness) ? flow.tightness : output.tightness);
   constexpr double saysNothing = 1e6;
-  for (std::size_t o = 0; o < run.scales.size(); ++o) {
-    const OutputScale& scale = run.scales[o];
-    flow.mostWidth.push_back(scale.vanishes ? std::numeric_limits<double>::infinity()
-                                            : saysNothing * std::max({scale.size, scale.span, flow.floors[o]}));
-  }
+  for (std::size_t o = 0; o < scales.size(); ++o)
+    flow.mostWidth.push_back(scales[o].vanishes
+                                 ? std::numeric_limits<double>::infinity()
+                                 : saysNothing * std::max({scales[o].size, scales[o].span, flow.floors[o]}));
   flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
   return flow;
 }
 
-void enclose(Run& run) {
-  if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return;
-  const double start = processCpuSeconds();
-  const Spending spending(run.spent.enclosure);
-  run.watch.begin(Watch::Stage::enclosure);
-  clear(run);
-  try {
-    run.study.analysis == Study::Analysis::kinematics ? encloseConfiguration(run) : encloseMotion(run);
-  } catch (const std::bad_alloc&) {
-    run.watch.memoryFailed();
-    clear(run);
-    run.enclosed.why = run.watch.why();
+Enclosure enclose(Run& run, const Seen& seen, const OutputScales& scales, Results& results) {
+  if (!run.isEnclosed()) return {};
+  Encloser encloser(run, seen, scales, results.picture.places);
+  encloser.find();
+  if (run.study.asksFor<FuzzyResult>()) encloser.givePossibilities(results.fuzzy);
+  if (run.study.asksFor<IntervalResult>()) {
+    results.interval = std::move(encloser.interval);
+    results.interval.present = true;
   }
-  run.enclosed.cpu = processCpuSeconds() - start;
-}
-
-void guarantee(Run& run) {
-  if (!run.study.asksFor<IntervalResult>()) return;
-  Enclosed& enclosed = run.enclosed;
-  IntervalResult& interval = run.results.interval;
-  interval.present = true;
-  interval.at = std::move(enclosed.at);
-  interval.over = std::move(enclosed.over);
-  interval.direct = std::move(enclosed.direct);
-  interval.reached = enclosed.reached;
-  interval.why = enclosed.why;
-  interval.tightness = enclosed.tightness;
-  interval.shortfall = enclosed.shortfall;
-  interval.advice = enclosed.advice;
-  interval.pieces = enclosed.pieces;
-  interval.steps = enclosed.steps;
-  interval.cpu = enclosed.cpu - enclosed.cutCpu;
+  return std::move(encloser.found);
 }
 
 }  // namespace gamut

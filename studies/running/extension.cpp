@@ -107,9 +107,8 @@ void forgetSamples(Results& results, std::size_t samples) {
   }
 }
 
-void noteExtension(Run& run, std::int64_t before) {
-  ExtensionInfo& extension = run.results.extensions.emplace_back();
-  const Limits limits = limitsOf(run.study, run.options);
+void noteExtension(const Limits& limits, std::int64_t before, Results& results) {
+  ExtensionInfo& extension = results.extensions.emplace_back();
   extension.before = before;
   extension.version = version();
   extension.host = printable(hostName());
@@ -120,27 +119,37 @@ void noteExtension(Run& run, std::int64_t before) {
 
 }  // namespace
 
-Extension extend(const Machine& machine, const Results& results, const RunOptions& options) {
+Extension extend(const Machine& machine, const Results& former, const RunOptions& options) {
   const Study& study = machine.study;
-  const std::size_t samples = checkedSamples(study, results, options);
-  checkValues(study, results, samplingOf(study, results, samples));
-  Run run(machine, options, results);
-  noteExtension(run, results.stochastic.samples);
-  run.former.emplace(results, samples);
-  run.motion = withSwitchingOf(results, std::move(run.motion));
-  run.enclosed.reachedTimes = enclosedTimes(results);
-  run.suspects.resize(study.requirements.size());
-  run.worstMargins.assign(study.requirements.size(), FirstOrder(run.motion.uncertain));
-  forgetSamples(run.results, samples);
-  for (const auto& unit : unitsOfSamples) unit(run);
-  run.results.extensions.back().cpu = run.watch.spent();
-  run.results.cpu += run.watch.spent();
-  run.results.memory = std::max(run.results.memory, peakMemory());
+  const std::size_t count = checkedSamples(study, former, options);
+  checkValues(study, former, samplingOf(study, former, count));
+  Limits limits = limitsOf(study, options);
+  limits.sampleTime = former.limits.sampleTime;
+  Run run(machine, options, limits);
   Extension extension;
-  extension.isMore = run.results.stochastic.integrated >= results.stochastic.integrated;
-  extension.met = run.former->met();
-  extension.changed = run.former->changed();
-  extension.results = std::move(run.results);
+  Results& results = extension.results = former;
+  addCost(results, "equations", machine.cpu);
+  noteExtension(limits, former.stochastic.samples, results);
+  SampledMotion samples(machine);
+  samples.former.emplace(former, count);
+  samples.motion = withSwitchingOf(former, std::move(samples.motion));
+  Enclosure enclosure;
+  enclosure.reachedTimes = enclosedTimes(former);
+  forgetSamples(results, count);
+  takeFirstSamples(run, samples, results);
+  takeOtherSamples(run, enclosure, samples, results);
+  countRequirements(study, results);
+  estimateRequirements(run, enclosure.reachedTimes, samples, results);
+  refuteRequirements(run, samples, results);
+  compareShares(study, samples, results);
+  noteStop(run, "", results);
+  compareAnswers(run, enclosure.reachedTimes, samples, results);
+  results.extensions.back().cpu = run.watch.spent();
+  results.cpu += run.watch.spent();
+  results.memory = std::max(results.memory, peakMemory());
+  extension.isMore = results.stochastic.integrated >= former.stochastic.integrated;
+  extension.met = samples.former->met();
+  extension.changed = samples.former->changed();
   return extension;
 }
 

@@ -27,23 +27,23 @@ double widthOf(const Envelope& sampled, const std::vector<double>& widest, std::
 
 /// Those beyond the corners by more than is worth a sample, the farthest first. However many samples there are beside
 /// the corners, they are the same.
-std::vector<Candidate> candidatesOf(const Run& run) {
+std::vector<Candidate> candidatesOf(const Study& study, const Enclosure& enclosure, const EnsembleRun& ensemble) {
   constexpr double hardly = 1e-3, noise = 1e-9;  // of what corners span; of the output itself
-  const Envelope sampled = run.ensemble->cornerEnvelope();
-  const std::vector<int> outputs = plainOutputs(run.study);
-  std::vector<double> widest(run.study.outputs.size(), 0.0);
-  for (std::size_t row = 0; row < run.study.times.size(); ++row)
+  const Envelope sampled = ensemble.cornerEnvelope();
+  const std::vector<int> outputs = plainOutputs(study);
+  std::vector<double> widest(study.outputs.size(), 0.0);
+  for (std::size_t row = 0; row < study.times.size(); ++row)
     for (std::size_t o = 0; o < widest.size(); ++o) widest[o] = std::fmax(widest[o], widthAt(sampled, row, o));
   std::vector<Candidate> candidates;
   const auto add = [&](double missing, double width, double value, const std::vector<double>& values) {
     if (!values.empty() && missing > hardly * width && missing > noise * std::fabs(value))
       candidates.push_back({missing / width, &values});
   };
-  for (std::size_t row = 0; row < run.enclosed.extremes.size(); ++row)
+  for (std::size_t row = 0; row < enclosure.extremes.size(); ++row)
     for (const int output : outputs) {
       const auto o = static_cast<std::size_t>(output);
-      if (o >= run.enclosed.extremes[row].size()) continue;
-      const OutputExtremes& extremes = run.enclosed.extremes[row][o];
+      if (o >= enclosure.extremes[row].size()) continue;
+      const OutputExtremes& extremes = enclosure.extremes[row][o];
       const double width = widthOf(sampled, widest, row, o);
       add(sampled.lower(row, o) - extremes.least, width, extremes.least, extremes.leastAt);
       add(extremes.greatest - sampled.upper(row, o), width, extremes.greatest, extremes.greatestAt);
@@ -64,17 +64,18 @@ std::vector<std::size_t> rowsOfExtremes(const Study& study) {
   return rows;
 }
 
-std::vector<std::vector<double>> extremePoints(const Run& run) {
+std::vector<std::vector<double>> extremePoints(const Study& study, const Enclosure& enclosure,
+                                               const SampledMotion& samples) {
   constexpr double alike = 0.05;  // of half the ranges: of what turns there little is lost
   constexpr std::size_t most = 256;
-  const UncertainMotion& motion = run.motion;
+  const UncertainMotion& motion = samples.motion;
   std::vector<std::vector<double>> points;
-  for (const Candidate& candidate : candidatesOf(run)) {
+  for (const Candidate& candidate : candidatesOf(study, enclosure, *samples.ensemble)) {
     if (points.size() == most) break;
     std::vector<double> values;
     for (std::size_t q = 0; q < motion.uncertain.size(); ++q)
-      values.push_back(run.study.uncertain[q].varies ? motion.uncertain[q].nominal
-                                                     : (*candidate.values)[static_cast<std::size_t>(motion.slot[q])]);
+      values.push_back(study.uncertain[q].varies ? motion.uncertain[q].nominal
+                                                 : (*candidate.values)[static_cast<std::size_t>(motion.slot[q])]);
     const auto isAlike = [&](const std::vector<double>& other) {
       for (std::size_t q = 0; q < values.size(); ++q)
         if (std::fabs(values[q] - other[q]) > 0.5 * alike * width(motion.uncertain[q].range)) return false;

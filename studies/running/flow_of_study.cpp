@@ -72,11 +72,6 @@ std::size_t rowOf(const std::vector<double>& times, double time) {
 }
 
 CellQuestion questionOf(const Study& study, const Requirement& requirement, std::size_t rows) {
-  return questionOf(study, requirement, study.times, rows);
-}
-
-CellQuestion questionOf(const Study& study, const Requirement& requirement, const std::vector<double>& times,
-                        std::size_t rows) {
   CellQuestion question;
   question.when = requirement.demand.isAlways ? CellQuestion::When::always : CellQuestion::When::eventually;
   const std::size_t first = study.requirements.front().firstMargin;  // models are of margins alone
@@ -84,8 +79,8 @@ CellQuestion questionOf(const Study& study, const Requirement& requirement, cons
     question.margins.push_back(static_cast<int>(requirement.firstMargin + k - first));
     question.isStrict.push_back(requirement.demand.terms[k].isStrict ? 1 : 0);
   }
-  question.from = rowOf(times, requirement.demand.from);
-  question.until = std::min(rowOf(times, requirement.demand.until), rows - 1);
+  question.from = rowOf(study.times, requirement.demand.from);
+  question.until = std::min(rowOf(study.times, requirement.demand.until), rows - 1);
   return question;
 }
 

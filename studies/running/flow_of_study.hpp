@@ -25,10 +25,8 @@ std::string adviceOf(const Watch& watch);
 /// The index of an output time.
 std::size_t rowOf(const std::vector<double>& times, double time);
 
-/// What is asked of models of all margins, which reach so many output times, or so many of `times`.
+/// What is asked of models of all margins, which reach so many output times.
 CellQuestion questionOf(const Study& study, const Requirement& requirement, std::size_t rows);
-CellQuestion questionOf(const Study& study, const Requirement& requirement, const std::vector<double>& times,
-                        std::size_t rows);
 
 /// A flow whose outputs are the margins alone, with models of them, over a box like the machine's; or
 /// the margins, and then all others with models at output times.

@@ -5,22 +5,21 @@
 
 namespace gamut {
 
-void findFurther(Run& run) {
+void findFurther(Run& run, Results& results) {
   for (std::size_t i = 0; i < run.study.analyses.size(); ++i) {
     const FurtherAnalysis& analysis = *run.study.analyses[i];
     if (!analysis.isAsked()) continue;
     run.watch.begin(Watch::Stage::rest);
-    const double start = processCpuSeconds();
-    FurtherPart& part = *run.results.further[i];
+    FurtherPart& part = *results.further[i];
+    const Charge charge(nullptr, &part.cpu);
     part.present = true;
     try {
-      analysis.find(run, part);
+      analysis.find(run, results, part);
     } catch (const std::bad_alloc&) {
       run.watch.memoryFailed();
       part.why = run.watch.why();
     }
     if (*run.watch.stop()) part.stopped = run.watch.why();
-    part.cpu = processCpuSeconds() - start;
   }
 }
 

@@ -1,4 +1,4 @@
-// What is possible: the enclosures of the alpha-cuts' boxes; in kinematics narrowed by fuzzy numbers that move the
+// What is possible in kinematics: the enclosures of the alpha-cuts' boxes, narrowed by fuzzy numbers that move the
 // assembly.
 #include <new>
 #include <utility>
@@ -35,25 +35,13 @@ void narrow(std::vector<Bounds>& cuts, const std::vector<Fuzzy>& outputs) {
 
 }  // namespace
 
-void findPossibilities(Run& run) {
-  if (!run.study.asksFor<FuzzyResult>()) return;
-  const double start = processCpuSeconds();
-  Enclosed& enclosed = run.enclosed;
-  FuzzyResult& fuzzy = run.results.fuzzy;
-  fuzzy.present = true;
-  fuzzy.alpha = run.machine.alpha;
-  fuzzy.outer = std::move(enclosed.cuts);
-  fuzzy.reached = enclosed.reached;
-  fuzzy.why = enclosed.why;
-  if (run.study.analysis == Study::Analysis::kinematics && enclosed.reachedTimes > 0) {
-    try {
-      narrow(fuzzy.outer, assembledOutputs(run.machine, fuzzyNumbers(run.machine)));
-    } catch (const std::bad_alloc&) {
-      run.watch.memoryFailed();
-      fuzzy.why = run.watch.why();
-    }
+void narrowByAssembly(Run& run, FuzzyResult& fuzzy) {
+  try {
+    narrow(fuzzy.outer, assembledOutputs(run.machine, fuzzyNumbers(run.machine)));
+  } catch (const std::bad_alloc&) {
+    run.watch.memoryFailed();
+    fuzzy.why = run.watch.why();
   }
-  fuzzy.cpu = enclosed.cpu - run.results.interval.cpu + processCpuSeconds() - start;
 }
 
 }  // namespace gamut

@@ -1,5 +1,6 @@
 // The joint distribution of the quantities.
 #include <algorithm>
+#include <utility>
 
 #include "studies/running/units.hpp"
 
@@ -11,24 +12,19 @@ bool isPlain(const Study& study) {
          });
 }
 
-const JointMasses& jointMasses(Run& run, int symbols, const std::vector<FlowSymbol>& quantities) {
-  const auto isSame = [](const FlowSymbol& a, const FlowSymbol& b) {
-    return a.symbol == b.symbol && a.centre == b.centre && a.half == b.half;
-  };
-  if (run.masses && run.masses->symbols() == symbols && std::ranges::equal(run.symbols, quantities, isSame))
-    return *run.masses;
+ModelMasses massesOf(const Machine& machine) {
+  const Study& study = machine.study;
   std::vector<const Uncertain*> uncertain;
-  std::vector<std::size_t> place(run.study.uncertain.size());  // among these
-  for (const auto [number, slot] : run.machine.constants) {
+  std::vector<std::size_t> place(study.uncertain.size());  // among these
+  for (const auto [number, slot] : machine.constants) {
     place[number] = uncertain.size();
-    uncertain.push_back(&run.study.uncertain[number].uncertain);
+    uncertain.push_back(&study.uncertain[number].uncertain);
   }
-  QuantityDependence dependence = run.study.dependence;
+  QuantityDependence dependence = study.dependence;
   for (GaussianCopula& copula : dependence.copulas) copula.renumber(place);
   for (std::vector<std::size_t>& group : dependence.unknown)
     for (std::size_t& q : group) q = place[q];
-  run.symbols = quantities;
-  return run.masses.emplace(symbols, quantities, uncertain, dependence);
+  return {std::move(uncertain), std::move(dependence)};
 }
 
 }  // namespace gamut

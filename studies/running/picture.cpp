@@ -15,10 +15,8 @@
 namespace gamut {
 namespace {
 
-void describeParts(Run& run) {
-  const Mechanism& mechanism = run.study.mechanism;
-  const Skeleton& skeleton = run.seen.skeleton;
-  PictureResult& machine = run.results.picture;
+void describeParts(const Study& study, const Skeleton& skeleton, PictureResult& machine) {
+  const Mechanism& mechanism = study.mechanism;
   const auto nominal = [&](const Expression& number) { return midpoint(mechanism.rangeOf(number)); };
   machine.present = machine.places.present = true;
   for (std::size_t i = 0; i < 3; ++i)
@@ -26,11 +24,11 @@ void describeParts(Run& run) {
   for (const Skeleton::Point& point : skeleton.points)
     machine.points.push_back({printable(point.name), point.isFixed, point.isGround});
   for (const Skeleton::Part& part : skeleton.parts) {
-    const auto told = run.study.unitsOfMasses.find(part.name);
+    const auto told = study.unitsOfMasses.find(part.name);
     constexpr const char* kinds[] = {"rigid", "joint", "mass", "spring"};
     machine.parts.push_back({printable(part.name), printable(part.type), kinds[static_cast<std::size_t>(part.kind)],
                              part.from, part.to, part.turns, part.slides, nominal(part.mass),
-                             told == run.study.unitsOfMasses.end() ? std::string() : told->second});
+                             told == study.unitsOfMasses.end() ? std::string() : told->second});
   }
   for (const Skeleton::JointAxis& axis : skeleton.axes) machine.axes.push_back({printable(axis.name), axis.part});
 }
@@ -38,13 +36,10 @@ void describeParts(Run& run) {
 /// Integrates one motion after the other, each alone.
 class Follower {
  public:
-  explicit Follower(Run& run)
-      : run_(run),
-        motion_(run.motion.motion),
-        tolerance_(run.study.ensemble.tolerance),
-        seconds_(run.results.limits.sampleTime) {
-    motion_.g = run.machine.alongCourses(run.seen.drawn);
-    motion_.times = run.seen.at;
+  Follower(const Run& run, const Seen& seen, const UncertainMotion& motion)
+      : motion_(motion.motion), tolerance_(run.study.ensemble.tolerance), seconds_(run.limits.sampleTime) {
+    motion_.g = run.machine.alongCourses(seen.drawn);
+    motion_.times = seen.at;
     witness_.emplace(motion_, run.study.ensemble.method, run.watch.stop());
   }
 
@@ -60,7 +55,6 @@ class Follower {
   }
 
  private:
-  Run& run_;
   Motion motion_;
   Tolerance tolerance_;
   double seconds_;
@@ -130,12 +124,11 @@ bool mayJump(const Program& program, const std::vector<VaryingParameter>& varyin
 /// Bounds of how far points leave chords.
 class Sags {
  public:
-  Sags(const Run& run, const Tube& tube)
-      : run_(run),
-        tube_(tube),
-        parameters_(run.machine.box.begin() + static_cast<std::ptrdiff_t>(run.machine.states), run.machine.box.end()),
-        jumps_(mayJump(run.seen.positions, run.machine.varying)),
-        values_(jumps_ ? run.seen.positions : run.seen.velocities, parameters_) {}
+  Sags(const Machine& machine, const Seen& seen, const Tube& tube)
+      : tube_(tube),
+        parameters_(machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end()),
+        jumps_(mayJump(seen.positions, machine.varying)),
+        values_(jumps_ ? seen.positions : seen.velocities, parameters_) {}
 
   /// Between output times i < j. A path that goes at speeds between l and u leaves the chord, of slope m, by no more
   /// than (u - m) s after the time s, nor by more than (m - l)(h - s), since it comes to its end: by (u - l) h / 4 at
@@ -164,7 +157,6 @@ class Sags {
   }
 
  private:
-  const Run& run_;
   const Tube& tube_;
   std::vector<Interval> parameters_;
   bool jumps_;
@@ -178,36 +170,36 @@ void put(std::vector<double>& lower, std::vector<double>& upper, std::size_t row
   }
 }
 
-void makeRoom(const Run& run, Places& places) {
-  const std::size_t numbers = run.seen.times.size() * 3 * run.seen.skeleton.points.size();
+void makeRoom(const Seen& seen, Places& places) {
+  const std::size_t numbers = seen.times.size() * 3 * seen.skeleton.points.size();
   for (std::vector<double>* of : {&places.lower, &places.upper, &places.sag})
     of->assign(numbers, std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace
 
-void lookAtMachine(Run& run) try {
+Seen lookAtMachine(Run& run, PictureResult& picture) try {
   run.watch.begin(Watch::Stage::firstSamples);
-  run.seen = whatIsSeen(run.machine);
-  if (run.seen.empty()) return;
-  describeParts(run);
-  Places& places = run.results.picture.places;
-  places.time = run.seen.at;
-  const Table nominal = Follower(run).follow(run.motion.nominal);
-  const std::size_t coordinates = 3 * run.seen.skeleton.points.size();
+  Seen seen = whatIsSeen(run.machine);
+  if (seen.empty()) return seen;
+  describeParts(run.study, seen.skeleton, picture);
+  Places& places = picture.places;
+  places.time = seen.at;
+  const Table nominal = Follower(run, seen, run.machine.motion).follow(run.machine.motion.nominal);
+  const std::size_t coordinates = 3 * seen.skeleton.points.size();
   append(places.nominal, nominal, 0, coordinates);
   append(places.axes, nominal, coordinates, nominal.outputs);
+  return seen;
 } catch (const std::bad_alloc&) {  // the answers are worth more than a picture
-  run.seen = {};
-  run.results.picture = {};
+  picture = {};
+  return {};
 }
 
-void enclosePlaces(Run& run, const Tube& tube) {
-  if (!run.seen.isEnclosed) return;
-  Places& places = run.results.picture.places;
-  makeRoom(run, places);
-  Sags sags(run, tube);
-  const std::vector<std::size_t>& times = run.seen.times;
+void enclosePlaces(const Run& run, const Seen& seen, const Tube& tube, Places& places) {
+  if (!seen.isEnclosed) return;
+  makeRoom(seen, places);
+  Sags sags(run.machine, seen, tube);
+  const std::vector<std::size_t>& times = seen.times;
   for (std::size_t row = 0; row < times.size() && times[row] < tube.reachedTimes(); ++row) {
     const std::vector<Interval>& bounds = tube.asides(times[row]);
     put(places.lower, places.upper, row, bounds);
@@ -217,42 +209,40 @@ void enclosePlaces(Run& run, const Tube& tube) {
   }
 }
 
-void enclosePlaces(Run& run) {
-  if (!run.seen.isEnclosed) return;
-  Places& places = run.results.picture.places;
-  const auto images =
-      encloseImage(run.seen.positions, 0.0, run.machine.box, {}, run.study.flow.degree, run.watch.stop());
-  std::vector<Interval> bounds = BoxValues(run.seen.positions, run.machine.box).over(Interval(0.0), {});
+void enclosePlaces(const Run& run, const Seen& seen, Places& places) {
+  if (!seen.isEnclosed) return;
+  const auto images = encloseImage(seen.positions, 0.0, run.machine.box, {}, run.study.flow.degree, run.watch.stop());
+  std::vector<Interval> bounds = BoxValues(seen.positions, run.machine.box).over(Interval(0.0), {});
   for (std::size_t k = 0; k < bounds.size() && !images.empty(); ++k)
     bounds[k] = intersection(bounds[k], images.front()[k]);
-  makeRoom(run, places);
+  makeRoom(seen, places);
   put(places.lower, places.upper, 0, bounds);
   std::ranges::fill(places.sag, 0.0);
 }
 
-void showSamples(Run& run) try {
-  if (run.seen.empty()) return;
-  PictureResult& machine = run.results.picture;
+void showSamples(Run& run, const Seen& seen, const std::string& whyEnclosureEnded, const UncertainMotion& motion,
+                 Results& results) try {
+  if (seen.empty()) return;
+  PictureResult& machine = results.picture;
   if (run.study.asksFor<IntervalResult>())
-    machine.why = run.seen.isEnclosed
-                      ? run.enclosed.why
+    machine.why = seen.isEnclosed
+                      ? whyEnclosureEnded
                       : "of more than " + std::to_string(mostEnclosedPoints) + " moving points no places are enclosed";
   if (!run.study.asksFor<StochasticResult>() || *run.watch.stop()) return;
   run.watch.begin(Watch::Stage::rest);
   const EnsembleOptions options =
-      ensembleOptions(run.machine, run.results, run.options.samples.value_or(run.study.ensemble.samples));
+      ensembleOptions(run.machine, results, run.options.samples.value_or(run.study.ensemble.samples));
   Sampling sampling(options.plan, run.study.uncertain.size(), options.samples, options.seed);
-  sampling.correlate(run.motion.dependence.copulas);
-  Follower follower(run);
-  const UncertainMotion& motion = run.motion;
+  sampling.correlate(motion.dependence.copulas);
+  Follower follower(run, seen, motion);
   for (const std::size_t number : shownSamples(sampling, options.plan)) {
     const Table sample = follower.follow(motion.start(sampling.values(number, motion.uncertain)));
     machine.places.sample.push_back(static_cast<std::int64_t>(number));
-    append(machine.places.samples, sample, 0, 3 * run.seen.skeleton.points.size());
+    append(machine.places.samples, sample, 0, 3 * seen.skeleton.points.size());
   }
 } catch (const std::bad_alloc&) {
-  run.results.picture.places.sample.clear();
-  run.results.picture.places.samples.clear();
+  results.picture.places.sample.clear();
+  results.picture.places.samples.clear();
 }
 
 }  // namespace gamut

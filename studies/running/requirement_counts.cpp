@@ -78,16 +78,17 @@ void boundShare(RequirementEstimate& estimate) {
 }
 
 /// Independent samples, besides those of another plan, of these requirements.
-void sampleIndependently(Run& run, const std::vector<std::size_t>& requirements) {
-  EnsembleOptions options = run.ensemble->options();
-  options.samples = std::min(run.ensemble->sampling().samples(), mostIndependent);
+void sampleIndependently(const Run& run, const std::vector<std::size_t>& requirements, SampledMotion& samples,
+                         Results& results) {
+  EnsembleOptions options = samples.ensemble->options();
+  options.samples = std::min(samples.ensemble->sampling().samples(), mostIndependent);
   options.seed ^= 0x9e3779b97f4a7c15;  // others than those of the plan
   options.progress = {};
   options.cancelled = run.watch.stop();
-  integrateIndependent(run.motion, options, [&](const SampleBlock& block) {
+  integrateIndependent(samples.motion, options, [&](const SampleBlock& block) {
     for (const std::size_t r : requirements) {
       const Requirement& requirement = run.study.requirements[r];
-      RequirementEstimate& estimate = run.results.requirements[r].estimate;
+      RequirementEstimate& estimate = results.requirements[r].estimate;
       const std::size_t from = rowOf(run.study.times, requirement.demand.from),
                         until = rowOf(run.study.times, requirement.demand.until);
       for (std::size_t i = 0; i < block.size(); ++i) {
@@ -99,7 +100,7 @@ void sampleIndependently(Run& run, const std::vector<std::size_t>& requirements)
         }
         ++estimate.violated;
         const Margin worst = worstOf(block, i, from, until, requirement);
-        run.suspects[r].add({{block.values(i).begin(), block.values(i).end()}, -1, worst.value, true});
+        samples.suspects[r].add({{block.values(i).begin(), block.values(i).end()}, -1, worst.value, true});
       }
     }
   });
@@ -107,12 +108,12 @@ void sampleIndependently(Run& run, const std::vector<std::size_t>& requirements)
 
 }  // namespace
 
-void noteRequirements(Run& run, const SampleBlock& block) {
-  for (std::size_t r = 0; r < run.study.requirements.size(); ++r) {
-    const Requirement& requirement = run.study.requirements[r];
-    RequirementResult& result = run.results.requirements[r];
-    const std::size_t from = rowOf(run.study.times, requirement.demand.from),
-                      until = rowOf(run.study.times, requirement.demand.until);
+void noteRequirements(const Study& study, const SampleBlock& block, SampledMotion& samples, Results& results) {
+  for (std::size_t r = 0; r < study.requirements.size(); ++r) {
+    const Requirement& requirement = study.requirements[r];
+    RequirementResult& result = results.requirements[r];
+    const std::size_t from = rowOf(study.times, requirement.demand.from),
+                      until = rowOf(study.times, requirement.demand.until);
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (std::isnan(block(i, until, requirement.firstMargin))) continue;  // it did not arrive
       const bool violates = !isMetThroughout(block, i, from, until, requirement);
@@ -122,58 +123,55 @@ void noteRequirements(Run& run, const SampleBlock& block) {
       }
       const Margin worst = worstOf(block, i, from, until, requirement);
       if (std::isnan(worst.value)) continue;
-      if (block.hasWeight() && run.worstMargins[r].count() < mostFitted)
-        run.worstMargins[r].include(block.values(i), worst.value);
+      if (block.hasWeight() && samples.worstMargins[r].count() < mostFitted)
+        samples.worstMargins[r].include(block.values(i), worst.value);
       const auto sample = static_cast<std::int64_t>(block.first() + i);
       const bool isWorst = result.worstSample < 0 || worst.value < result.worstMargin;
       if (isWorst || violates)
-        run.suspects[r].add({{block.values(i).begin(), block.values(i).end()}, sample, worst.value, violates});
+        samples.suspects[r].add({{block.values(i).begin(), block.values(i).end()}, sample, worst.value, violates});
       if (!isWorst) continue;
       result.worstSample = sample;
       result.worstMargin = worst.value;
-      result.worstTime = run.study.times[worst.row];
+      result.worstTime = study.times[worst.row];
     }
   }
 }
 
-void estimateRequirements(Run& run) {
-  if (!run.ensemble || run.study.uncertain.empty() || !haveOneDistribution(run.study)) return;
-  if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return;
+void estimateRequirements(Run& run, std::size_t reachedTimes, SampledMotion& samples, Results& results) {
+  if (!samples.ensemble || run.study.uncertain.empty() || !haveOneDistribution(run.study)) return;
+  if (!run.isEnclosed()) return;
   std::vector<std::size_t> open;
   for (std::size_t r = 0; r < run.study.requirements.size(); ++r)
-    if (rowOf(run.study.times, run.study.requirements[r].demand.until) >= run.enclosed.reachedTimes) open.push_back(r);
+    if (rowOf(run.study.times, run.study.requirements[r].demand.until) >= reachedTimes) open.push_back(r);
   if (open.empty() || run.study.horizon == 0) return;
-  const double start = processCpuSeconds();
-  const Spending spending(run.spent.samples);
+  const Charge charge(&run.spent.samples, &results.stochastic.cpu);
   run.watch.begin(Watch::Stage::rest);
   try {
-    if (run.study.ensemble.plan != Plan::random) sampleIndependently(run, open);
+    if (run.study.ensemble.plan != Plan::random) sampleIndependently(run, open, samples, results);
   } catch (const std::bad_alloc&) {
     run.watch.memoryFailed();
   }
   std::vector<std::vector<double>> coefficients;
   std::vector<char> atZero;
   for (const std::size_t r : open) {
-    RequirementResult& result = run.results.requirements[r];
+    RequirementResult& result = results.requirements[r];
     const Requirement& requirement = run.study.requirements[r];
     if (run.study.ensemble.plan == Plan::random) {
-      const std::int64_t followed = static_cast<std::int64_t>(run.ensemble->counted());
+      const std::int64_t followed = static_cast<std::int64_t>(samples.ensemble->counted());
       result.estimate = {followed, result.samples - result.violating, result.violating};
     }
     boundShare(result.estimate);
-    coefficients.push_back(run.worstMargins[r].coefficients());
+    coefficients.push_back(samples.worstMargins[r].coefficients());
     atZero.push_back(std::ranges::none_of(requirement.demand.terms, &DemandTerm::isStrict) ? 1 : 0);
   }
   const std::vector<double> shares =
-      sharesAboveZero(coefficients, atZero, run.motion.uncertain, run.study.dependence, run.results.seed);
-  for (std::size_t i = 0; i < open.size(); ++i) run.results.requirements[open[i]].estimate.firstOrder = shares[i];
-  run.results.stochastic.cpu += processCpuSeconds() - start;
+      sharesAboveZero(coefficients, atZero, samples.motion.uncertain, run.study.dependence, results.seed);
+  for (std::size_t i = 0; i < open.size(); ++i) results.requirements[open[i]].estimate.firstOrder = shares[i];
 }
 
-void countRequirements(Run& run) {
-  for (RequirementResult& result : run.results.requirements) {
-    if (run.study.ensemble.plan != Plan::random || result.samples == 0 ||
-        result.samples < run.results.stochastic.samples)
+void countRequirements(const Study& study, Results& results) {
+  for (RequirementResult& result : results.requirements) {
+    if (study.ensemble.plan != Plan::random || result.samples == 0 || result.samples < results.stochastic.samples)
       continue;
     const Interval share = confidenceOfShare(result.samples - result.violating, result.samples);
     result.shareLower = share.lower();

@@ -50,47 +50,13 @@ void take(RequirementResult& result, const RequirementFinding& finding) {
 }
 
 /// Whether bounds are so far apart that tighter models are worth their while.
-bool isVague(const Run& run, const RequirementResult& result) {
+bool isVague(const Study& study, const RequirementResult& result) {
   constexpr double gap = 0.008;
-  const bool isOneProbability = isPlain(run.study);
+  const bool isOneProbability = isPlain(study);
   return result.word != Decision::met && result.word != Decision::violated &&
          (result.word == Decision::open ||
           (isOneProbability && result.probabilityUpper - result.probabilityLower > gap) ||
           result.violationMost - result.violationLeast > 6 * gap);
-}
-
-/// What models of the margins say of one requirement; no less than what is known of it already.
-void examineModels(Run& run, const FlowModels& models, std::size_t number, double work,
-                   std::vector<Suspect>& suspects) {
-  const Spending spending(run.spent.requirements);
-  const Study& study = run.study;
-  const Requirement& requirement = study.requirements[number];
-  const CellQuestion whole = questionOf(study, requirement, study.times.size());
-  if (models.at.size() <= whole.from) return;
-  const CellQuestion question = questionOf(study, requirement, models.at.size());
-  std::vector<CellQuantity> quantities;
-  for (const ConstantQuantity& of : run.machine.constants)
-    quantities.push_back({of.slot, &study.uncertain[of.number].uncertain});
-  RequirementOptions options;
-  std::vector<FlowSymbol> symbols;
-  for (const CellQuantity& quantity : quantities)
-    symbols.push_back(models.components[static_cast<std::size_t>(quantity.component)]);
-  options.masses = &jointMasses(run, models.symbols, symbols);
-  options.mostWork = work;
-  options.cancelled = run.watch.stop();
-  RequirementFinding finding = gamut::examine(models, question, quantities, options);
-  if (question.until < whole.until) forgetWhatIsNotKnown(finding, requirement.demand.isAlways);
-  RequirementResult& result = run.results.requirements[number];
-  take(result, finding);
-  for (const std::vector<double>& values : {finding.violating, finding.doubtful}) {
-    if (values.empty()) continue;
-    std::vector<double>& all = suspects.emplace_back().values;
-    all.assign(study.uncertain.size(), RequirementResult::unknown);
-    for (std::size_t i = 0; i < values.size(); ++i) all[run.machine.constants[i].number] = values[i];
-  }
-  if (finding.violating.empty()) return;  // else the models prove it; a flow of its own will tell when and by how much
-  if (result.word == Decision::open) result.word = Decision::partly;
-  result.violation = suspects.front().values;
 }
 
 /// Why no more is known, and what may help.
@@ -101,11 +67,11 @@ struct Reason {
 const Reason exactly{"its limit is met exactly, as far as can be told: rounded numbers prove neither", "another limit"};
 
 /// What the enclosure says of a margin that is left open: where it reaches how far below zero.
-Reason ofMargin(const Run& run, const Requirement& requirement) {
+Reason ofMargin(const Study& study, const Results& results, const Requirement& requirement) {
   const Reason loose{"the enclosure is not tight enough to tell",
-                     fmt::format("interval.tightness = {:.6g}", 1 + (run.study.flow.tightness - 1) / 4)};
-  const std::vector<double>& times = run.study.times;
-  const IntervalResult& interval = run.results.interval;
+                     fmt::format("interval.tightness = {:.6g}", 1 + (study.flow.tightness - 1) / 4)};
+  const std::vector<double>& times = study.times;
+  const IntervalResult& interval = results.interval;
   if (!requirement.demand.isAlways || interval.at.empty()) return loose;
   struct Least {
     double margin = std::numeric_limits<double>::infinity(), time = 0;
@@ -122,45 +88,16 @@ Reason ofMargin(const Run& run, const Requirement& requirement) {
     }
   const Least& least = at.margin > 0 ? over : at;
   if (!std::isfinite(least.margin) || !(least.margin < 0)) return loose;
-  const double size = motionSize(run.results, least.output);
+  const double size = motionSize(results, least.output);
   if (isLittle(least.margin, size)) return exactly;
-  const std::string below = inUnit(atMostText(-least.margin, 3, size), run.study.outputs[least.output].unit);
-  if (run.study.horizon == 0) return {fmt::format("its margin is proved to be above -{} only", below), ""};
+  const std::string below = inUnit(atMostText(-least.margin, 3, size), study.outputs[least.output].unit);
+  if (study.horizon == 0) return {fmt::format("its margin is proved to be above -{} only", below), ""};
   if (at.margin > 0)
     return {fmt::format("between output times, before {} s, its margin is proved to be above -{} only",
                         numberText(least.time, 6), below),
             "more output times (study.output_step)"};
   return {fmt::format("its margin is proved to be above -{} only at {} s", below, numberText(least.time, 6)),
           loose.advice};
-}
-
-/// One cause, the first that holds.
-Reason whyOpen(const Run& run, std::size_t number, const std::string& unsettled) {
-  const RequirementResult& result = run.results.requirements[number];
-  const bool isEnclosureShort =
-      !run.enclosed.why.empty() &&
-      (!run.enclosed.models || run.study.times[run.enclosed.models->at.size() - 1] < result.until);
-  if (isEnclosureShort && result.word == Decision::open &&
-      !result.isViolatedInSimulation)  // whatever came to an end later
-    return {run.enclosed.why, run.enclosed.advice};
-  if (*run.watch.stop()) return {run.watch.why(), adviceOf(run.watch)};
-  if (result.isViolatedInSimulation && !unsettled.empty()) return {unsettled, ""};
-  if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>())
-    return {"no enclosure was asked for", "study.compare with \"interval\""};
-  if (isEnclosureShort) return {run.enclosed.why, run.enclosed.advice};
-  if (!run.enclosed.models) return {"models of its margins found no room", "a greater limits.enclosure_memory"};
-  if (result.word != Decision::open) return {};
-  if (isJustMet(run, number)) return exactly;
-  if (run.spent.isAll)
-    return {"the work that limits.requirements allows is done",
-            fmt::format("limits.requirements = {:.6g}", 4 * std::max(run.study.shares.requirements, 0.25))};
-  return ofMargin(run, run.study.requirements[number]);
-}
-
-void noteReason(Run& run, std::size_t number, const std::string& unsettled) {
-  Reason reason = whyOpen(run, number, unsettled);
-  run.results.requirements[number].why = std::move(reason.why);
-  run.results.requirements[number].advice = std::move(reason.advice);
 }
 
 /// Whether all of the box is met, as far as so many cells tell.
@@ -182,13 +119,13 @@ bool isMetThroughout(const FlowModels& models, const CellQuestion& question) {
 }
 
 /// The last output time of the window up to which it is always met, for every value; NaN if there is none.
-double metUntil(const Run& run, const FlowModels& models, std::size_t number) {
-  const Requirement& requirement = run.study.requirements[number];
-  CellQuestion question = questionOf(run.study, requirement, models.at.size());
+double metUntil(const Machine& machine, const FlowModels& models, const Requirement& requirement) {
+  const Study& study = machine.study;
+  CellQuestion question = questionOf(study, requirement, models.at.size());
   if (!requirement.demand.isAlways || models.at.size() <= question.from) return RequirementResult::unknown;
   std::vector<char> isOwned(static_cast<std::size_t>(models.symbols), 0);
-  for (std::size_t q = 0; q < run.study.uncertain.size(); ++q)
-    if (const int symbol = models.components[static_cast<std::size_t>(run.motion.slot[q])].symbol; symbol >= 0)
+  for (std::size_t q = 0; q < study.uncertain.size(); ++q)
+    if (const int symbol = models.components[static_cast<std::size_t>(machine.motion.slot[q])].symbol; symbol >= 0)
       isOwned[static_cast<std::size_t>(symbol)] = 1;
   for (int l = 0; l < models.symbols; ++l)
     if (isOwned[static_cast<std::size_t>(l)] == 0) question.besides.push_back(l);
@@ -203,23 +140,7 @@ double metUntil(const Run& run, const FlowModels& models, std::size_t number) {
     const std::size_t middle = met + (open - met) / 2;
     (isMetUntil(middle) ? met : open) = middle;
   }
-  return run.study.times[met];
-}
-
-/// Does it while there is room, and takes the time of it.
-template <class Prove>
-void proveWhileThereIsRoom(Run& run, const Prove& prove) {
-  if (run.study.requirements.empty()) return;
-  run.watch.begin(Watch::Stage::rest);
-  const double start = processCpuSeconds();
-  try {
-    prove();
-  } catch (const std::bad_alloc&) {
-    run.watch.memoryFailed();
-    for (RequirementResult& result : run.results.requirements)
-      if (result.word == Decision::open) result.why = run.watch.why();
-  }
-  addCost(run.results, "requirements", processCpuSeconds() - start);
+  return study.times[met];
 }
 
 /// Of each margin, in turn, whether it must be above zero; otherwise zero is enough.
@@ -233,10 +154,10 @@ std::vector<bool> areStrict(const Study& study) {
 /// At the very moment of a jump an output has a value of its own, which the enclosure knows; models hold what it comes
 /// to on both sides. Where zero is enough of a margin, and the enclosure, in which what is exact is not rounded, begins
 /// there, it says more than they do: x <= 0.75 of 0.5 ± 0.25.
-std::shared_ptr<const FlowModels> sharpenedByEnclosure(const Run& run, std::shared_ptr<const FlowModels> models) {
-  const IntervalResult& interval = run.results.interval;
-  const std::vector<int> margins = marginOutputs(run.study);
-  const std::vector<bool> isStrict = areStrict(run.study);
+std::shared_ptr<const FlowModels> sharpenedByEnclosure(const Study& study, const IntervalResult& interval,
+                                                       std::shared_ptr<const FlowModels> models) {
+  const std::vector<int> margins = marginOutputs(study);
+  const std::vector<bool> isStrict = areStrict(study);
   const auto isAtZero = [&](std::size_t k, double lower, const Interval& bound) {
     return !isStrict[k] && lower >= 0 && bound.lower() < 0;
   };
@@ -276,62 +197,169 @@ std::shared_ptr<const FlowModels> sharpenedByEnclosure(const Run& run, std::shar
 }
 
 /// Where zero is enough of a margin, it may begin there.
-std::shared_ptr<const FlowModels> sharpenedModels(const Run& run) {
-  const std::vector<bool> isStrict = areStrict(run.study);
+std::shared_ptr<const FlowModels> sharpenedModels(const Machine& machine, const IntervalResult& interval,
+                                                  const std::shared_ptr<const FlowModels>& known) {
+  const Study& study = machine.study;
+  const std::vector<bool> isStrict = areStrict(study);
   const bool isAtZero = std::ranges::find(isStrict, false) != isStrict.end();
-  const std::shared_ptr<const FlowModels> models = sharpenedByEnclosure(run, run.enclosed.models);
-  if (!isAtZero || !run.machine.varying.empty() || run.study.horizon == 0) return models;
-  return sharpenedAtStart(models, run.machine.equations().f, run.machine.equations().g, marginOutputs(run.study),
-                          run.machine.box);
+  const std::shared_ptr<const FlowModels> models = sharpenedByEnclosure(study, interval, known);
+  if (!isAtZero || !machine.varying.empty() || study.horizon == 0) return models;
+  return sharpenedAtStart(models, machine.equations().f, machine.equations().g, marginOutputs(study), machine.box);
 }
 
-void proveAll(Run& run) {
-  const std::size_t count = run.study.requirements.size();
-  std::vector<std::vector<Suspect>> suspects(count);
-  // Each gets as much of what is left; a third of that is for what the enclosure's own models say, and half of what
-  // then is left for a tighter flow.
-  const auto examineAll = [&](double part) {
-    const std::shared_ptr<const FlowModels> known = sharpenedModels(run);
-    std::size_t open = 0;
-    for (const RequirementResult& result : run.results.requirements) open += isVague(run, result) ? 1 : 0;
-    const double work = part * workForRequirements(run) / static_cast<double>(std::max<std::size_t>(open, 1));
-    for (std::size_t r = 0; r < count; ++r)
-      if (isVague(run, run.results.requirements[r])) {
-        std::vector<Suspect> found;
-        examineModels(run, *known, r, work, found);
-        suspects[r].insert(suspects[r].begin(), found.begin(), found.end());
-      }
-  };
-  if (run.enclosed.models) examineAll(1.0 / 3);
-  double excess = run.study.flow.tightness - 1;
-  for (int round = 0; round < 2 && run.enclosed.models; ++round) {
-    if (run.study.analysis == Study::Analysis::kinematics || *run.watch.stop() ||
-        std::ranges::none_of(run.results.requirements, [&](const auto& result) { return isVague(run, result); }))
-      break;
-    constexpr double parts = 128;  // of the horizon: outputs leave the chords of long steps
-    const double longest = round == 0 ? run.study.horizon : run.study.horizon / parts;
-    {
-      const Spending spending(run.spent.requirements);
-      const double work = 0.5 * workForRequirements(run);
-      if (!tightenModels(run, 1 + (excess /= 4), work, longest, "requirements")) break;
-    }
-    examineAll(round == 0 ? 0.5 : 1);
+/// Does it while there is room, and takes the time of it.
+template <class Prove>
+void proveWhileThereIsRoom(Run& run, Results& results, const Prove& prove) {
+  if (run.study.requirements.empty()) return;
+  run.watch.begin(Watch::Stage::rest);
+  double cpu = 0;
+  try {
+    const Charge charge(nullptr, &cpu);
+    prove();
+  } catch (const std::bad_alloc&) {
+    run.watch.memoryFailed();
+    for (RequirementResult& result : results.requirements)
+      if (result.word == Decision::open) result.why = run.watch.why();
   }
-  for (std::size_t r = 0; r < count; ++r) {
-    RequirementResult& result = run.results.requirements[r];
-    if (result.word == Decision::met) continue;
-    const std::string unsettled = findViolation(run, r, std::move(suspects[r]));
-    result.isViolatedInSimulation = result.word == Decision::open && isViolatedInSimulation(run, r);
-    if (result.word != Decision::violated) noteReason(run, r, unsettled);
-    if (result.word == Decision::open && run.enclosed.models) result.metUntil = metUntil(run, *sharpenedModels(run), r);
-  }
+  addCost(results, "requirements", cpu);
 }
+
+/// Of all requirements of a run, what is proved: by what is known of their margins, then by tighter flows.
+class RequirementProof {
+ public:
+  RequirementProof(Run& run, const SampledMotion& samples, Enclosure& enclosure, ModelMasses& masses, Results& results)
+      : run_(run),
+        study_(run.study),
+        samples_(samples),
+        enclosure_(enclosure),
+        masses_(masses),
+        results_(results),
+        suspects_(results.requirements.size()) {}
+
+  void proveAll() {
+    constexpr double ofKnown = 1.0 / 3, parts = 128;  // of the horizon: outputs leave the chords of long steps
+    if (enclosure_.models) examineAll(ofKnown);
+    for (int round = 0; round < 2 && mayTighten(); ++round) {
+      {
+        const Charge charge(&run_.spent.requirements);
+        const double longest = round == 0 ? study_.horizon : study_.horizon / parts;
+        const double work = 0.5 * workForRequirements(run_);
+        if (!enclosure_.models.tighten(4, work, tighterOptions(run_, longest, "requirements"))) break;
+      }
+      examineAll(round == 0 ? 0.5 : 1);
+    }
+    for (std::size_t r = 0; r < results_.requirements.size(); ++r)
+      if (results_.requirements[r].word != Decision::met) proveViolation(r);
+  }
+
+ private:
+  bool mayTighten() const {
+    return enclosure_.models.mayTighten() && !*run_.watch.stop() &&
+           std::ranges::any_of(results_.requirements, [&](const auto& result) { return isVague(study_, result); });
+  }
+
+  std::shared_ptr<const FlowModels> models() const {
+    return sharpenedModels(run_.machine, results_.interval, enclosure_.models.get());
+  }
+
+  /// Each gets as much of what is left; a third of that is for what the enclosure's own models say, and half of what
+  /// then is left for a tighter flow.
+  void examineAll(double part) {
+    const std::shared_ptr<const FlowModels> known = models();
+    const auto isOpen = [&](const RequirementResult& result) { return isVague(study_, result); };
+    const auto open =
+        static_cast<double>(std::max<std::ptrdiff_t>(std::ranges::count_if(results_.requirements, isOpen), 1));
+    const double work = part * workForRequirements(run_) / open;
+    for (std::size_t r = 0; r < results_.requirements.size(); ++r) {
+      if (!isOpen(results_.requirements[r])) continue;
+      std::vector<Suspect> found;
+      examine(*known, r, work, found);
+      suspects_[r].insert(suspects_[r].begin(), found.begin(), found.end());
+    }
+  }
+
+  void proveViolation(std::size_t number) {
+    RequirementResult& result = results_.requirements[number];
+    const std::string unsettled = findViolation(run_, samples_, number, std::move(suspects_[number]), results_);
+    result.isViolatedInSimulation =
+        result.word == Decision::open && gamut::isViolatedInSimulation(study_, results_, number);
+    if (result.word != Decision::violated) {
+      Reason reason = whyOpen(number, unsettled);
+      result.why = std::move(reason.why);
+      result.advice = std::move(reason.advice);
+    }
+    if (result.word == Decision::open && enclosure_.models)
+      result.metUntil = metUntil(run_.machine, *models(), study_.requirements[number]);
+  }
+
+  /// What models of the margins say of one requirement; no less than what is known of it already.
+  void examine(const FlowModels& models, std::size_t number, double work, std::vector<Suspect>& suspects) {
+    const Charge charge(&run_.spent.requirements);
+    const Requirement& requirement = study_.requirements[number];
+    const CellQuestion whole = questionOf(study_, requirement, study_.times.size());
+    if (models.at.size() <= whole.from) return;
+    const CellQuestion question = questionOf(study_, requirement, models.at.size());
+    std::vector<CellQuantity> quantities;
+    for (const ConstantQuantity& of : run_.machine.constants)
+      quantities.push_back({of.slot, &study_.uncertain[of.number].uncertain});
+    RequirementOptions options;
+    std::vector<FlowSymbol> symbols;
+    for (const CellQuantity& quantity : quantities)
+      symbols.push_back(models.components[static_cast<std::size_t>(quantity.component)]);
+    options.masses = &masses_.in(models.symbols, symbols);
+    options.mostWork = work;
+    options.cancelled = run_.watch.stop();
+    RequirementFinding finding = gamut::examine(models, question, quantities, options);
+    if (question.until < whole.until) forgetWhatIsNotKnown(finding, requirement.demand.isAlways);
+    RequirementResult& result = results_.requirements[number];
+    take(result, finding);
+    for (const std::vector<double>& values : {finding.violating, finding.doubtful}) {
+      if (values.empty()) continue;
+      std::vector<double>& all = suspects.emplace_back().values;
+      all.assign(study_.uncertain.size(), RequirementResult::unknown);
+      for (std::size_t i = 0; i < values.size(); ++i) all[run_.machine.constants[i].number] = values[i];
+    }
+    if (finding.violating.empty())
+      return;  // else the models prove it; a flow of its own will tell when and by how much
+    if (result.word == Decision::open) result.word = Decision::partly;
+    result.violation = suspects.front().values;
+  }
+
+  /// One cause, the first that holds.
+  Reason whyOpen(std::size_t number, const std::string& unsettled) const {
+    const RequirementResult& result = results_.requirements[number];
+    const bool isEnclosureShort = !enclosure_.why.empty() &&
+                                  (!enclosure_.models || study_.times[enclosure_.models->at.size() - 1] < result.until);
+    if (isEnclosureShort && result.word == Decision::open &&
+        !result.isViolatedInSimulation)  // whatever came to an end later
+      return {enclosure_.why, enclosure_.advice};
+    if (*run_.watch.stop()) return {run_.watch.why(), adviceOf(run_.watch)};
+    if (result.isViolatedInSimulation && !unsettled.empty()) return {unsettled, ""};
+    if (!run_.isEnclosed()) return {"no enclosure was asked for", "study.compare with \"interval\""};
+    if (isEnclosureShort) return {enclosure_.why, enclosure_.advice};
+    if (!enclosure_.models) return {"models of its margins found no room", "a greater limits.enclosure_memory"};
+    if (result.word != Decision::open) return {};
+    if (isJustMet(study_, results_, number)) return exactly;
+    if (enclosure_.models.isWorkDone())
+      return {"the work that limits.requirements allows is done",
+              fmt::format("limits.requirements = {:.6g}", 4 * std::max(study_.shares.requirements, 0.25))};
+    return ofMargin(study_, results_, study_.requirements[number]);
+  }
+
+  Run& run_;
+  const Study& study_;
+  const SampledMotion& samples_;
+  Enclosure& enclosure_;
+  ModelMasses& masses_;
+  Results& results_;
+  std::vector<std::vector<Suspect>> suspects_;  // of each requirement, by models
+};
 
 }  // namespace
 
-void stateRequirements(Run& run) {
-  for (const Requirement& requirement : run.study.requirements) {
-    RequirementResult& result = run.results.requirements.emplace_back();
+void stateRequirements(const Study& study, Results& results) {
+  for (const Requirement& requirement : study.requirements) {
+    RequirementResult& result = results.requirements.emplace_back();
     result.name = requirement.name;
     result.statement = requirement.statement;
     result.isAlways = requirement.demand.isAlways;
@@ -339,24 +367,23 @@ void stateRequirements(Run& run) {
     result.until = requirement.demand.until;
     result.margin = requirement.firstMargin;
     result.margins = static_cast<std::int64_t>(requirement.margins());
-    result.violation.assign(run.study.uncertain.size(), RequirementResult::unknown);
+    result.violation.assign(study.uncertain.size(), RequirementResult::unknown);
   }
-  run.results.margins = marginsOf(run.study);
-  run.suspects.resize(run.study.requirements.size());
-  run.worstMargins.assign(run.study.requirements.size(), FirstOrder(run.motion.uncertain));
+  results.margins = marginsOf(study);
 }
 
-void checkRequirements(Run& run) {
-  proveWhileThereIsRoom(run, [&] { proveAll(run); });
+void checkRequirements(Run& run, const SampledMotion& samples, Enclosure& enclosure, ModelMasses& masses,
+                       Results& results) {
+  proveWhileThereIsRoom(run, results, [&] { RequirementProof(run, samples, enclosure, masses, results).proveAll(); });
 }
 
-void refuteRequirements(Run& run) {
-  proveWhileThereIsRoom(run, [&] {
-    for (std::size_t r = 0; r < run.results.requirements.size(); ++r) {
-      RequirementResult& result = run.results.requirements[r];
+void refuteRequirements(Run& run, const SampledMotion& samples, Results& results) {
+  proveWhileThereIsRoom(run, results, [&] {
+    for (std::size_t r = 0; r < results.requirements.size(); ++r) {
+      RequirementResult& result = results.requirements[r];
       if (result.word != Decision::open) continue;
-      const std::string unsettled = findViolation(run, r, {});
-      result.isViolatedInSimulation = result.word == Decision::open && isViolatedInSimulation(run, r);
+      const std::string unsettled = findViolation(run, samples, r, {}, results);
+      result.isViolatedInSimulation = result.word == Decision::open && isViolatedInSimulation(run.study, results, r);
       if (result.word != Decision::open)
         result.why.clear(), result.advice.clear();
       else if (result.isViolatedInSimulation && !unsettled.empty())

@@ -47,18 +47,19 @@ std::string dependenceText(const Study& study) {
 }
 
 /// The part of the results that is known before anything runs. Words as they are read back from a file.
-void describeOrigin(Run& run) {
+Results withOrigin(const Run& run) {
   const Study& study = run.study;
-  Origin& origin = run.results;
-  run.results.further.clear();
-  for (const Boxed<FurtherAnalysis>& analysis : study.analyses) run.results.further.emplace_back(analysis->part());
+  Results results;
+  Origin& origin = results;
+  results.further.clear();
+  for (const Boxed<FurtherAnalysis>& analysis : study.analyses) results.further.emplace_back(analysis->part());
   origin.studyText = study.text;
   origin.robotText = study.robot;
   origin.tablesText = inOneText(study.tables);
   origin.studyFile = printable(study.file);
   origin.title = printable(study.title);
   origin.analysis = study.analysisName();
-  origin.limits = limitsOf(study, run.options);
+  origin.limits = run.limits;
   origin.seed = run.options.seed.value_or(study.ensemble.seed);
   origin.version = version();
   origin.host = printable(hostName());
@@ -88,21 +89,20 @@ void describeOrigin(Run& run) {
     add("membership", u.membership.numbers());
     if (u.distribution.isPrecise()) info.inconsistency = inconsistency(u.distribution, u.membership);
   }
+  addCost(origin, "equations", run.machine.cpu);
+  return results;
 }
 
 }  // namespace
 
-Run::Run(const Machine& whatMoves, const RunOptions& howToRun) : Run(whatMoves, howToRun, {}) { describeOrigin(*this); }
-
-Run::Run(const Machine& whatMoves, const RunOptions& howToRun, Results found)
+Run::Run(const Machine& whatMoves, const RunOptions& howToRun, const Limits& itsLimits)
     : machine(whatMoves),
       study(machine.study),
       options(howToRun),
-      watch(limitsOf(study, options), options.cancelled, {options.overdue}, machine.cpu),
-      motion(machine.motion),
-      results(std::move(found)) {
-  addCost(results, "equations", machine.cpu);
-}
+      limits(itsLimits),
+      watch(limits, options.cancelled, {options.overdue}, machine.cpu) {}
+
+double Run::basis() const { return std::max(spent.enclosure + spent.samples, Shares::least * Work::perSecond); }
 
 std::function<void(double)> Run::progressOf(const std::string& task) const {
   if (!options.progress) return {};
@@ -136,21 +136,33 @@ double memoryNeeded(const Study& study, const RunOptions& options) {
 }
 
 Results run(const Machine& machine, const RunOptions& options) {
-  Run run(machine, options);
-  bool isProved = false;
-  for (const auto& unit : units) {
-    if (!run.failure.empty() && unit != noteStop && unit != compareAnswers) continue;
-    try {
-      unit(run);
-    } catch (const std::exception& error) {  // must not cost what was proved
-      if (!isProved || !run.failure.empty()) throw;
-      run.failure = printable(error.what());
-    }
-    isProved = isProved || unit == findPossibilities;
+  Run run(machine, options, limitsOf(machine.study, options));
+  Results results = withOrigin(run);
+  SampledMotion samples(machine);
+  ModelMasses masses = massesOf(machine);
+  stateRequirements(machine.study, results);
+  const Seen seen = lookAtMachine(run, results.picture);
+  takeFirstSamples(run, samples, results);
+  Enclosure enclosure = enclose(run, seen, samples.scales, results);
+  std::string failure;
+  try {
+    takeOtherSamples(run, enclosure, samples, results);
+    countRequirements(machine.study, results);
+    estimateRequirements(run, enclosure.reachedTimes, samples, results);
+    seekAdvice(run, samples.scales, enclosure, results);
+    checkRequirements(run, samples, enclosure, masses, results);
+    boundProbabilities(run, samples.scales, enclosure, masses, results);
+    compareShares(machine.study, samples, results);
+    findFurther(run, results);
+  } catch (const std::exception& error) {  // must not cost what was proved
+    failure = printable(error.what());
   }
-  run.results.cpu = run.watch.spent();
-  run.results.memory = peakMemory();
-  return std::move(run.results);
+  noteStop(run, failure, results);
+  compareAnswers(run, enclosure.reachedTimes, samples, results);
+  if (failure.empty()) showSamples(run, seen, enclosure.why, samples.motion, results);
+  results.cpu = run.watch.spent();
+  results.memory = peakMemory();
+  return results;
 }
 
 }  // namespace gamut

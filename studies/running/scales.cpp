@@ -12,20 +12,20 @@ namespace gamut {
 namespace {
 
 /// What the last digit of states makes of each output, along the nominal motion: where terms cancel, all that is left.
-std::vector<double> grainsOf(const Run& run) {
+std::vector<double> grainsOf(const Run& run, const UncertainMotion& uncertain) {
   constexpr std::size_t looks = 8;
   constexpr double digit = 0x1p-50;
-  Motion motion = run.motion.motion;
+  Motion motion = uncertain.motion;
   Evaluator<Interval> outputs(motion.g);
   const int n = motion.f.states();
   motion.g = record(n, motion.g.parameters(), n,
                     [](const auto&, const auto& x, const auto&, auto& y) { std::ranges::copy(x, y.begin()); });
   motion.outputNames.clear();
-  const std::vector<double>& start = run.motion.nominal;
+  const std::vector<double>& start = uncertain.nominal;
   Table states(motion.times.size(), static_cast<std::size_t>(n));
   if (n > 0)
     Witness(motion, run.study.ensemble.method, run.watch.stop())
-        .integrate(start, run.study.ensemble.tolerance, states.data, run.results.limits.sampleTime);
+        .integrate(start, run.study.ensemble.tolerance, states.data, run.limits.sampleTime);
   const std::vector<Interval> parameters(start.begin() + n, start.end());
   outputs.setParameters(parameters);
   std::vector<double> grains(run.study.outputs.size(), 0.0);
@@ -47,12 +47,12 @@ std::vector<double> grainsOf(const Run& run) {
 
 }  // namespace
 
-std::vector<OutputScale> scalesOf(const Run& run) {
-  if (!run.ensemble || run.study.uncertain.empty()) return {};
-  const Envelope first = run.ensemble->firstEnvelope();
-  const Table& error = run.ensemble->error();
-  std::vector<OutputScale> scales(run.study.outputs.size());
-  const std::vector<double> grains = grainsOf(run);
+OutputScales scalesOf(const Run& run, const UncertainMotion& motion, const EnsembleRun& ensemble) {
+  if (run.study.uncertain.empty()) return {};
+  const Envelope first = ensemble.firstEnvelope();
+  const Table& error = ensemble.error();
+  OutputScales scales(run.study.outputs.size());
+  const std::vector<double> grains = grainsOf(run, motion);
   constexpr double telling = 100, hardly = 1000;
   for (std::size_t o = 0; o < scales.size(); ++o) {
     OutputScale& scale = scales[o];
@@ -70,13 +70,13 @@ std::vector<OutputScale> scalesOf(const Run& run) {
   return scales;
 }
 
-std::vector<double> floorsOf(const Run& run) {
+std::vector<double> floorsOf(const Study& study, const OutputScales& scales) {
   constexpr double millionth = 1e-6;
   std::vector<double> floors;
-  for (const OutputInfo& output : run.study.outputs) floors.push_back(output.resolution);
-  for (std::size_t o = 0; o < run.scales.size(); ++o)
-    floors[o] = run.scales[o].isNothing() ? std::numeric_limits<double>::infinity()
-                                          : std::max(floors[o], millionth * run.scales[o].span);
+  for (const OutputInfo& output : study.outputs) floors.push_back(output.resolution);
+  for (std::size_t o = 0; o < scales.size(); ++o)
+    floors[o] = scales[o].isNothing() ? std::numeric_limits<double>::infinity()
+                                      : std::max(floors[o], millionth * scales[o].span);
   return floors;
 }
 

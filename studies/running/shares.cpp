@@ -44,33 +44,32 @@ double excessOf(const SampledShares& shares, const ProvedDistribution& proved, d
 }
 
 /// Where the samples are independent, and all arrived.
-double bandOf(const Run& run) {
-  const StochasticResult& stochastic = run.results.stochastic;
-  if (run.study.ensemble.plan != Plan::random || stochastic.samples == 0 ||
-      stochastic.integrated < stochastic.planned() || !stochastic.why.empty())
+double bandOf(const Study& study, const StochasticResult& stochastic) {
+  if (study.ensemble.plan != Plan::random || stochastic.samples == 0 || stochastic.integrated < stochastic.planned() ||
+      !stochastic.why.empty())
     return 0;
   return std::sqrt(std::log(2 / 0.05) / (2.0 * static_cast<double>(stochastic.samples)));
 }
 
 }  // namespace
 
-void compareShares(Run& run) {
-  DistributionResult& result = run.results.distribution;
+void compareShares(const Study& study, const SampledMotion& samples, Results& results) {
+  DistributionResult& result = results.distribution;
   if (!result.present) return;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t outputs = run.study.outputs.size();
+  const std::size_t outputs = study.outputs.size();
   result.sampled.assign(result.value.size(), unknown);
   result.excess.assign(result.gaps.size(), unknown);
-  result.band = bandOf(run);
-  if (!run.ensemble) return;
-  const Table& errors = run.results.stochastic.error;
+  result.band = bandOf(study, results.stochastic);
+  if (!samples.ensemble) return;
+  const Table& errors = results.stochastic.error;
   for (std::size_t cell = 0; cell < result.gaps.size(); ++cell) {
     const std::size_t at = cell / outputs, output = cell % outputs, begin = result.begin(at, output, outputs);
     const std::span<const double> all = std::span(result.value).subspan(begin, result.point.size());
     const auto count = static_cast<std::size_t>(
         std::ranges::find_if(all, [](double value) { return std::isnan(value); }) - all.begin());
-    const std::size_t row = rowOf(run.study.times, result.time[at]);
-    const SampledShares shares = run.ensemble->shares(row, output);
+    const std::size_t row = rowOf(study.times, result.time[at]);
+    const SampledShares shares = samples.ensemble->shares(row, output);
     if (count == 0 || shares.value.empty()) continue;
     const ProvedDistribution proved{all.first(count), std::span(result.lower).subspan(begin, count),
                                     std::span(result.upper).subspan(begin, count)};

@@ -19,26 +19,25 @@ namespace {
 
 /// What finds no room is given up.
 template <class Sample>
-void sampleWhileThereIsRoom(Run& run, Watch::Stage stage, const Sample& sample) {
-  const double start = processCpuSeconds();
-  const Spending spending(run.spent.samples);
+void sampleWhileThereIsRoom(Run& run, Watch::Stage stage, SampledMotion& samples, StochasticResult& result,
+                            const Sample& sample) {
+  const Charge charge(&run.spent.samples, &result.cpu);
   run.watch.begin(stage);
   try {
     sample();
   } catch (const std::bad_alloc&) {
     run.watch.memoryFailed();
-    run.ensemble.reset();
-    run.results.stochastic.kept = {};
-    run.results.stochastic.stopped = run.watch.why();
+    samples.ensemble.reset();
+    result.kept = {};
+    result.stopped = run.watch.why();
   }
-  run.results.stochastic.cpu += processCpuSeconds() - start;
 }
 
-EnsembleOptions ensembleOptions(const Run& run) {
+EnsembleOptions ensembleOptions(const Run& run, const Results& results) {
   EnsembleOptions options =
-      ensembleOptions(run.machine, run.results, run.options.samples.value_or(run.study.ensemble.samples));
+      ensembleOptions(run.machine, results, run.options.samples.value_or(run.study.ensemble.samples));
   options.jobs = run.options.jobs;
-  options.secondsPerSample = run.results.limits.sampleTime;
+  options.secondsPerSample = run.limits.sampleTime;
   options.progress = run.progressOf("samples");
   options.cancelled = run.watch.stop();
   return options;
@@ -53,12 +52,11 @@ ComparisonOptions comparisonOptions(const Run& run) {
 }
 
 /// Averages over the times that all samples reached.
-void describeConvergence(Run& run) {
-  const std::vector<Convergence>& found = run.ensemble->convergence();
-  const StochasticResult& stochastic = run.results.stochastic;
-  ConvergenceResult& result = run.results.stochastic.convergence;
-  const std::size_t outputs = run.study.outputs.size(), times = run.ensemble->reachedTimes();
-  if (found.empty() || run.ensemble->options().plan == Plan::grid) return;  // the first of a grid lie on one side
+void describeConvergence(const EnsembleRun& ensemble, std::size_t outputs, StochasticResult& stochastic) {
+  const std::vector<Convergence>& found = ensemble.convergence();
+  ConvergenceResult& result = stochastic.convergence;
+  const std::size_t times = ensemble.reachedTimes();
+  if (found.empty() || ensemble.options().plan == Plan::grid) return;  // the first of a grid lie on one side
   result.present = true;
   const auto average = [&](std::size_t output, const auto& ratio) {
     double sum = 0, count = 0;
@@ -81,9 +79,8 @@ void describeConvergence(Run& run) {
   }
 }
 
-void describeSamples(Run& run) {
-  StochasticResult& stochastic = run.results.stochastic;
-  const EnsembleRun& ensemble = *run.ensemble;
+void describeSamples(const Run& run, const EnsembleRun& ensemble, Results& results) {
+  StochasticResult& stochastic = results.stochastic;
   Statistics numbers = ensemble.statistics();
   stochastic.mean = std::move(numbers.mean);
   stochastic.deviation = std::move(numbers.deviation);
@@ -105,8 +102,8 @@ void describeSamples(Run& run) {
   if (ensemble.options().plan == Plan::random && ensemble.isComplete() && stochastic.why.empty() &&
       ensemble.sampling().quantities() > 0)
     stochastic.covered = coveredShare(ensemble.counted(), 0.95);
-  describeConvergence(run);
-  if (run.study.asksFor<FuzzyResult>()) run.results.fuzzy.inner = ensemble.innerCuts();
+  describeConvergence(ensemble, run.study.outputs.size(), stochastic);
+  if (run.study.asksFor<FuzzyResult>()) results.fuzzy.inner = ensemble.innerCuts();
   if (ensemble.isComplete()) {
     stochastic.stopped.clear();
   } else if (*run.watch.stop()) {
@@ -131,19 +128,18 @@ void numberSwitching(StochasticResult& stochastic) {
 }
 
 /// Where the transformation put its points.
-void describeTransformation(Run& run) {
-  const EnsembleRun& ensemble = *run.ensemble;
+void describeTransformation(const Study& study, const EnsembleRun& ensemble, Results& results) {
   const Transformation method = ensemble.options().transformation;
-  TransformationResult& result = run.results.fuzzy.transformation;
-  const std::size_t quantities = run.study.uncertain.size();
-  StochasticResult& stochastic = run.results.stochastic;
+  TransformationResult& result = results.fuzzy.transformation;
+  const std::size_t quantities = study.uncertain.size();
+  StochasticResult& stochastic = results.stochastic;
   stochastic.alphaPoints = static_cast<std::int64_t>(ensemble.sampling().points() - ensemble.extremes());
   std::vector<std::int64_t>& numbers = stochastic.extremes.number;
   numbers.resize(ensemble.options().extremes.size());
   stochastic.extremes.present = !numbers.empty();
   std::iota(numbers.begin(), numbers.end(), stochastic.firstExtreme());
   numberSwitching(stochastic);
-  if (!run.study.asksFor<FuzzyResult>()) return;
+  if (!study.asksFor<FuzzyResult>()) return;
   result.present = true;
   result.method = std::string(nameOf(method));
   result.turns = ensemble.turns();
@@ -158,9 +154,9 @@ void describeTransformation(Run& run) {
 }
 
 /// Some output times.
-std::vector<std::size_t> rowsOfInfluence(const Run& run) {
+std::vector<std::size_t> rowsOfInfluence(const Study& study) {
   constexpr std::size_t most = 64;
-  const std::size_t last = run.study.times.size() - 1, count = std::clamp<std::size_t>(last, 1, most);
+  const std::size_t last = study.times.size() - 1, count = std::clamp<std::size_t>(last, 1, most);
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i <= count; ++i)
     if (const std::size_t row = i * last / count; rows.empty() || row > rows.back()) rows.push_back(row);
@@ -168,19 +164,19 @@ std::vector<std::size_t> rowsOfInfluence(const Run& run) {
 }
 
 /// Where there are alpha-cuts with corners.
-std::optional<InfluenceMeasures> measureInfluence(const Run& run) {
-  if (!run.study.asksFor<FuzzyResult>() || run.ensemble->sampling().boxes().empty()) return {};
-  return std::optional<InfluenceMeasures>(std::in_place, run.ensemble->sampling(), run.ensemble->cornerLevels(),
-                                          rowsOfInfluence(run), run.study.outputs.size());
+std::optional<InfluenceMeasures> measureInfluence(const Study& study, const EnsembleRun& ensemble) {
+  if (!study.asksFor<FuzzyResult>() || ensemble.sampling().boxes().empty()) return {};
+  return std::optional<InfluenceMeasures>(std::in_place, ensemble.sampling(), ensemble.cornerLevels(),
+                                          rowsOfInfluence(study), study.outputs.size());
 }
 
 /// At the times that all samples reached.
-void describeInfluence(Run& run, const InfluenceMeasures& measures) {
-  InfluenceResult& result = run.results.fuzzy.influence;
-  const std::vector<std::size_t> rows = rowsOfInfluence(run);
-  for (std::size_t at = 0; at < rows.size() && rows[at] < run.ensemble->reachedTimes(); ++at) {
-    result.time.push_back(run.study.times[rows[at]]);
-    for (std::size_t output = 0; output < run.study.outputs.size(); ++output)
+void describeInfluence(const Study& study, const InfluenceMeasures& measures, std::size_t reachedTimes,
+                       InfluenceResult& result) {
+  const std::vector<std::size_t> rows = rowsOfInfluence(study);
+  for (std::size_t at = 0; at < rows.size() && rows[at] < reachedTimes; ++at) {
+    result.time.push_back(study.times[rows[at]]);
+    for (std::size_t output = 0; output < study.outputs.size(); ++output)
       std::ranges::copy(measures.shares(at, output), std::back_inserter(result.share));
   }
   result.present = !result.time.empty();
@@ -188,60 +184,66 @@ void describeInfluence(Run& run, const InfluenceMeasures& measures) {
 
 }  // namespace
 
-void takeFirstSamples(Run& run) {
+void takeFirstSamples(Run& run, SampledMotion& samples, Results& results) {
   if (!run.study.asksFor<StochasticResult>()) return;
-  const EnsembleOptions options = ensembleOptions(run);
-  StochasticResult& stochastic = run.results.stochastic;
+  const EnsembleOptions options = ensembleOptions(run, results);
+  StochasticResult& stochastic = results.stochastic;
   stochastic.present = true;
   stochastic.plan = std::string(nameOf(options.plan));
   stochastic.samples = static_cast<std::int64_t>(options.samples);
-  if (run.study.analysis != Study::Analysis::kinematics && !run.study.isMotionGiven()) {
+  if (run.moves() && !run.study.isMotionGiven()) {
     stochastic.relativeTolerance = options.tolerance.relative;
     stochastic.absoluteTolerance = options.tolerance.absolute;
   }
-  const bool isAllThereIs = run.former || (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>());
-  sampleWhileThereIsRoom(run, isAllThereIs ? Watch::Stage::rest : Watch::Stage::firstSamples, [&] {
-    EnsembleRun& ensemble = run.ensemble.emplace(run.motion, options);
+  const Watch::Stage stage =
+      samples.former || !run.isEnclosed() ? Watch::Stage::rest : Watch::Stage::firstSamples;  // all there is
+  sampleWhileThereIsRoom(run, stage, samples, stochastic, [&] {
+    EnsembleRun& ensemble = samples.ensemble.emplace(samples.motion, options);
     stochastic.samples = static_cast<std::int64_t>(ensemble.sampling().samples());
     stochastic.corners = static_cast<std::int64_t>(ensemble.sampling().corners());
     stochastic.alphaCorners = static_cast<std::int64_t>(ensemble.sampling().boxCorners());
     stochastic.packWidth = static_cast<std::int64_t>(ensemble.packWidth());
-    describeTransformation(run);
+    describeTransformation(run.study, ensemble, results);
     ensemble.integrateFirst();
     if (*run.watch.stop()) stochastic.stopped = run.watch.why();
-    if (run.study.asksFor<IntervalResult>()) run.scales = scalesOf(run);
+    if (run.study.asksFor<IntervalResult>()) samples.scales = scalesOf(run, samples.motion, ensemble);
   });
 }
 
-void takeOtherSamples(Run& run) {
-  if (!run.ensemble) return;
-  sampleWhileThereIsRoom(run, Watch::Stage::rest, [&] {
-    const Proved proved{run.results.interval.at, run.results.fuzzy.outer, run.enclosed.reachedTimes};
-    Settlement settlement(proved, run.motion, comparisonOptions(run));
-    const std::size_t last = run.ensemble->sampling().centre();
-    SampleKeeper keeper(last + 1, run.study.uncertain.size(), run.study.times.size() * run.study.outputs.size(),
-                        run.study.storage);
-    std::optional<InfluenceMeasures> influence = measureInfluence(run);
-    if (!run.former) {
-      std::vector<std::vector<double>> extremes = extremePoints(run);
-      std::ranges::move(takeWorstCourses(run), std::back_inserter(extremes));
+void takeOtherSamples(Run& run, const Enclosure& enclosure, SampledMotion& samples, Results& results) {
+  if (!samples.ensemble) return;
+  const Study& study = run.study;
+  StochasticResult& stochastic = results.stochastic;
+  sampleWhileThereIsRoom(run, Watch::Stage::rest, samples, stochastic, [&] {
+    EnsembleRun& ensemble = *samples.ensemble;
+    const Proved proved{results.interval.at, results.fuzzy.outer, enclosure.reachedTimes};
+    Settlement settlement(proved, samples.motion, comparisonOptions(run));
+    const std::size_t last = ensemble.sampling().centre();
+    SampleKeeper keeper(last + 1, study.uncertain.size(), study.times.size() * study.outputs.size(), study.storage);
+    std::optional<InfluenceMeasures> influence = measureInfluence(study, ensemble);
+    if (!samples.former) {
+      std::vector<std::vector<double>> extremes = extremePoints(study, enclosure, samples);
+      std::ranges::move(takeWorstCourses(run, samples.scales, samples.motion, stochastic.switching),
+                        std::back_inserter(extremes));
       for (const std::vector<double>& values : extremes)
-        std::ranges::copy(values, std::back_inserter(run.results.stochastic.extremes.values));
-      run.ensemble->setExtremes(std::move(extremes));
+        std::ranges::copy(values, std::back_inserter(stochastic.extremes.values));
+      ensemble.setExtremes(std::move(extremes));
     }
-    run.ensemble->integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
-      if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.machine, block);
-      settlement.settle(block, [&](const Comparison& found, int level) { takeDisputes(run, found, level); });
-      if (run.former) run.former->meet(block, run.results.comparison.disputed);
-      noteRequirements(run, block);
+    ensemble.integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
+      if (!run.moves()) moveSamples(run.machine, block);
+      settlement.settle(block, [&](const Comparison& found, int level) {
+        takeDisputes(run.watch, found, level, results.comparison);
+      });
+      if (samples.former) samples.former->meet(block, results.comparison.disputed);
+      noteRequirements(study, block, samples, results);
       if (influence) influence->include(block);
       if (block.first() <= last) keeper.keep(block);
     });
-    describeTransformation(run);
-    describeSamples(run);
-    if (influence) describeInfluence(run, *influence);
-    run.results.stochastic.kept = keeper.take();
-    run.ensemble->keepShares(distributionRows(run.study));
+    describeTransformation(study, ensemble, results);
+    describeSamples(run, ensemble, results);
+    if (influence) describeInfluence(study, *influence, ensemble.reachedTimes(), results.fuzzy.influence);
+    stochastic.kept = keeper.take();
+    ensemble.keepShares(distributionRows(study));
   });
 }
 

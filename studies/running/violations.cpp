@@ -1,6 +1,5 @@
 // A sample violates a requirement only as far as its integration can be believed; the thin flow of its values, and of
-// the very course that a quantity took, proves it. Between output times violations are looked for where bounds leave
-// doubt, at more and more instants.
+// the very course that a quantity took, proves it.
 #include "studies/running/violations.hpp"
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "analyses/requirements/cells.hpp"
+#include "analyses/requirements/refutation.hpp"
 #include "analyses/samples/courses.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
@@ -25,13 +24,6 @@ bool comesFirst(const Suspect& a, const Suspect& b) {
   return a.margin != b.margin ? a.margin < b.margin : a.sample < b.sample;
 }
 
-/// Models of the margins for single values, and where what they say leaves doubt.
-struct Thin {
-  std::shared_ptr<const FlowModels> models;
-  std::vector<double> times;                // rows of the models
-  std::vector<std::vector<Interval>> over;  // [row][margin of the study]: since the time before
-};
-
 /// The motion of single values, and what of it still varies in time.
 struct ThinMotion {
   Motion motion;
@@ -41,10 +33,11 @@ struct ThinMotion {
 
 class ThinFlows {
  public:
-  ThinFlows(Run& run, std::size_t number)
+  ThinFlows(const Run& run, const UncertainMotion& motion, const Requirement& requirement, RequirementResult& result)
       : run_(run),
-        requirement_(run.study.requirements[number]),
-        result_(run.results.requirements[number]),
+        motion_(motion),
+        requirement_(requirement),
+        result_(result),
         options_(flowOptions(run.machine, run.options.jobs, run.watch.stop())) {
     constexpr double least = 2, times = 4;  // s; the enclosure's
     options_.budget = std::max(least, times * run.spent.enclosure / Work::perSecond);
@@ -56,23 +49,21 @@ class ThinFlows {
     ended_.clear();
     const std::optional<ThinMotion> motion = motionAt(values);
     if (!motion) return false;
-    std::vector<double> times = run_.study.times;
-    constexpr int mostRounds = 6;
-    for (int round = 0; round <= (looksBetween ? mostRounds : 0) && !*run_.watch.stop(); ++round) {
-      const Thin thin = thinAt(*motion, times);
-      if (!thin.models || thin.models->at.size() <= rowOf(thin.times, requirement_.demand.from)) return false;
-      const CellQuestion question = questionOf(thin);
-      const bool isWhole = thin.times[question.until] == requirement_.demand.until;
-      const Cell::Verdict verdict = Cells(*thin.models, question).whole()->verdict();
-      // Once is enough of what must be always met; of what must be met once all of the window counts.
-      if (verdict == Cell::Verdict::violated && (isWhole || requirement_.demand.isAlways)) {
-        note(thin, question);
-        return true;
-      }
-      if (verdict == Cell::Verdict::met && (isWhole || !requirement_.demand.isAlways)) return false;
-      if (!addDoubtful(thin, question, times)) return false;
-    }
-    return false;
+    const Demand& demand = requirement_.demand;
+    const ThinQuestion asked{questionOf(run_.study, requirement_, run_.study.times.size()),
+                             demand.from,
+                             demand.until,
+                             run_.study.times,
+                             looksBetween,
+                             run_.watch.stop()};
+    const auto found = refute(asked, [&](const std::vector<double>& times) { return marginsOf(*motion, times); });
+    if (!found) return false;
+    result_.isViolatedBetween = found->isBetween;
+    if (!found->margin) return true;
+    result_.violationTime = found->time;
+    result_.violationLower = found->margin->lower();
+    result_.violationUpper = found->margin->upper();
+    return true;
   }
 
   /// Why the last values were not found to violate it.
@@ -90,7 +81,7 @@ class ThinFlows {
     ThinMotion thin{run_.machine.equations(), run_.machine.box, run_.machine.varying};
     std::vector<VaryingQuantity> courses;
     std::vector<std::pair<int, SwitchingCourse>> switching;
-    const std::vector<SwitchingCourse>* const switchingAt = run_.motion.switchingAt(values);
+    const std::vector<SwitchingCourse>* const switchingAt = motion_.switchingAt(values);
     std::size_t next = 0;
     for (std::size_t q = 0; q < values.size(); ++q) {
       const UncertainQuantity& quantity = run_.study.uncertain[q];
@@ -107,8 +98,7 @@ class ThinFlows {
       }
       // Where an interval is no wider than roundings, nobody knows which numbers are meant: all that may be.
       const bool isNarrow = !quantity.varies && isEmpty(quantity.uncertain.inside());
-      thin.box[static_cast<std::size_t>(run_.motion.slot[q])] =
-          isNarrow ? quantity.uncertain.range : Interval(values[q]);
+      thin.box[static_cast<std::size_t>(motion_.slot[q])] = isNarrow ? quantity.uncertain.range : Interval(values[q]);
       if (!quantity.varies) continue;
       // Ends are rounded outward from decimals: the course keeps to what lies inside.
       VaryingQuantity& of = courses.emplace_back(run_.machine.courses[course]);
@@ -124,87 +114,23 @@ class ThinFlows {
     return thin;
   }
 
-  Thin thinAt(const ThinMotion& of, const std::vector<double>& times) {
+  ThinMargins marginsOf(const ThinMotion& of, const std::vector<double>& times) {
     if (run_.study.analysis == Study::Analysis::kinematics)
       return {modelImage(run_.machine.equations().g, 0.0, of.box, marginOutputs(run_.study), run_.study.flow.degree,
                          run_.watch.stop()),
-              {0.0},
-              {}};
+              {0.0}};
     FlowOptions options = options_;
     options.varying = of.varying;
     const Tube tube = modelMarginsOf(run_.study, of.motion, std::move(options), of.box, times);
     steps_ += tube.steps();
     ended_ = tube.why();
-    Thin thin{tube.models(), tube.times(), {}};
+    ThinMargins thin{tube.models(), tube.times()};
     for (std::size_t row = 0; row < tube.reachedTimes(); ++row) thin.over.push_back(tube.outputsOver(row));
     return thin;
   }
 
-  CellQuestion questionOf(const Thin& thin) const {
-    return gamut::questionOf(run_.study, requirement_, thin.times, thin.models->at.size());
-  }
-
-  /// Adds times to those gaps of the window where it may be violated (where it may be met, of what must be so once),
-  /// the worst of them; false if there is nothing to add.
-  bool addDoubtful(const Thin& thin, const CellQuestion& question, std::vector<double>& times) const {
-    constexpr std::size_t most = 32;
-    constexpr int parts = 8;
-    constexpr double finest = 0x1p-30;  // of the horizon
-    struct Doubtful {
-      double doubt;  // the greater, the more there is to look for
-      std::size_t row;
-    };
-    std::vector<Doubtful> gaps;
-    for (std::size_t row = question.from + 1; row <= question.until && row < thin.over.size(); ++row) {
-      double least = std::numeric_limits<double>::infinity(), greatest = least;
-      for (std::size_t k = 0; k < question.margins.size(); ++k) {
-        const Interval& over = thin.over[row][static_cast<std::size_t>(question.margins[k])];
-        least = std::min(least, over.lower());
-        greatest = std::min(greatest, over.upper());
-      }
-      const double doubt = requirement_.demand.isAlways ? -least : greatest;
-      if (doubt >= 0 && thin.times[row] - thin.times[row - 1] > finest * run_.study.horizon)
-        gaps.push_back({doubt, row});
-    }
-    std::ranges::stable_sort(gaps, std::greater<>(), &Doubtful::doubt);
-    if (gaps.size() > most) gaps.resize(most);
-    for (const Doubtful& gap : gaps)
-      for (int part = 1; part < parts; ++part) {
-        const double from = thin.times[gap.row - 1], to = thin.times[gap.row], time = from + (to - from) * part / parts;
-        if (time > from && time < to) times.push_back(time);
-      }
-    std::ranges::sort(times);
-    const auto repeated = std::ranges::unique(times);
-    times.erase(repeated.begin(), repeated.end());
-    return !gaps.empty();
-  }
-
-  /// When it is missed most (of what must be met once: least), and by how much; at an output time, if there is one.
-  void note(const Thin& thin, const CellQuestion& question) {
-    std::optional<Interval> found;
-    bool isFoundBetween = false;
-    for (std::size_t row = question.from; row <= question.until; ++row) {
-      const bool isBetween = !std::ranges::binary_search(run_.study.times, thin.times[row]);
-      for (std::size_t k = 0; k < question.margins.size(); ++k) {
-        Interval bound = Interval::empty();
-        for (const auto& snapshot : thin.models->at[row])
-          bound = hull(bound, snapshot->outputs[static_cast<std::size_t>(question.margins[k])].bound);
-        if (question.isStrict[k] != 0 ? !(bound.upper() <= 0) : !(bound.upper() < 0)) continue;
-        const bool isFurther =
-            found && (requirement_.demand.isAlways ? bound.upper() >= found->upper() : bound.upper() <= found->upper());
-        if (found && isBetween == isFoundBetween ? isFurther : found && isBetween) continue;
-        found = bound;
-        isFoundBetween = isBetween;
-        result_.violationTime = thin.times[row];
-      }
-    }
-    result_.isViolatedBetween = requirement_.demand.isAlways && (!found || isFoundBetween);
-    if (!found) return;
-    result_.violationLower = found->lower();
-    result_.violationUpper = found->upper();
-  }
-
-  Run& run_;
+  const Run& run_;
+  const UncertainMotion& motion_;  // with the switching courses that samples follow
   const Requirement& requirement_;
   RequirementResult& result_;
   FlowOptions options_;
@@ -234,14 +160,14 @@ void noteMembership(const Study& study, RequirementResult& result) {
 }
 
 /// By how much the margin of the worst sample may be wrong, at the time at which it is told.
-double doubtOf(const Run& run, std::size_t number) {
+double doubtOf(const Study& study, const Results& results, std::size_t number) {
   constexpr double roundings = 0x1p-44;  // of the greatest that was sampled
-  const RequirementResult& result = run.results.requirements[number];
-  const StochasticResult& stochastic = run.results.stochastic;
+  const RequirementResult& result = results.requirements[number];
+  const StochasticResult& stochastic = results.stochastic;
   double doubt = 0;
   if (result.worstSample < 0) return doubt;
-  const std::size_t row = rowOf(run.study.times, result.worstTime);
-  for (const std::size_t output : run.study.requirements[number].marginOutputs()) {
+  const std::size_t row = rowOf(study.times, result.worstTime);
+  for (const std::size_t output : study.requirements[number].marginOutputs()) {
     if (const Table& error = stochastic.error; !error.empty()) doubt = std::fmax(doubt, error(row, output));
     const Envelope& all = stochastic.envelope;
     if (all.empty()) continue;
@@ -267,49 +193,51 @@ std::vector<Suspect> Suspects::sorted() const {
   return sorted;
 }
 
-std::string findViolation(Run& run, std::size_t number, std::vector<Suspect> others) {
-  RequirementResult& result = run.results.requirements[number];
+std::string findViolation(const Run& run, const SampledMotion& samples, std::size_t number, std::vector<Suspect> others,
+                          Results& results) {
+  const Study& study = run.study;
+  RequirementResult& result = results.requirements[number];
   constexpr long mostSteps = 20000;  // of all flows together, about: the last one ends
-  ThinFlows flows(run, number);
-  const std::vector<Suspect> samples = run.suspects[number].sorted();
+  ThinFlows flows(run, samples.motion, study.requirements[number], result);
+  const std::vector<Suspect> sampled = samples.suspects[number].sorted();
   std::string why;
   const auto tries = [&](const Suspect& suspect, bool looksBetween) {
     if (*run.watch.stop() || flows.steps() > mostSteps) return false;
-    const std::vector<double> values = insideValues(run.study, suspect.values);
+    const std::vector<double> values = insideValues(study, suspect.values);
     const bool isProved = flows.proves(values, looksBetween);
     if (!isProved && why.empty() && suspect.violates) why = flows.why();
     if (!isProved) return false;
     result.violation = values;
     result.violationSample = suspect.sample;
     if (result.word == Decision::open) result.word = Decision::partly;
-    if (run.study.uncertain.empty()) {  // there is no other motion
+    if (study.uncertain.empty()) {  // there is no other motion
       result.word = Decision::violated;
       result.violated = 1;
       result.probabilityUpper = result.probabilityLower = 0;
     }
-    noteMembership(run.study, result);
+    noteMembership(study, result);
     return true;
   };
-  const double doubt = doubtOf(run, number);
+  const double doubt = doubtOf(study, results, number);
   constexpr int mostDoubtful = 4;  // of samples whose errors are as large as what they miss
   int doubtful = 0;
-  for (const Suspect& suspect : samples)
+  for (const Suspect& suspect : sampled)
     if (suspect.violates && (-suspect.margin > doubt || ++doubtful <= mostDoubtful) && tries(suspect, false)) return {};
   for (const Suspect& suspect : others)
     if (tries(suspect, true)) return {};
-  if (result.word == Decision::open && !samples.empty() && !samples.front().violates && tries(samples.front(), true))
+  if (result.word == Decision::open && !sampled.empty() && !sampled.front().violates && tries(sampled.front(), true))
     return {};
   return why;
 }
 
-bool isViolatedInSimulation(const Run& run, std::size_t number) {
-  const RequirementResult& result = run.results.requirements[number];
-  return result.worstSample >= 0 && -result.worstMargin > doubtOf(run, number);
+bool isViolatedInSimulation(const Study& study, const Results& results, std::size_t number) {
+  const RequirementResult& result = results.requirements[number];
+  return result.worstSample >= 0 && -result.worstMargin > doubtOf(study, results, number);
 }
 
-bool isJustMet(const Run& run, std::size_t number) {
-  const RequirementResult& result = run.results.requirements[number];
-  return result.worstSample >= 0 && std::fabs(result.worstMargin) <= doubtOf(run, number);
+bool isJustMet(const Study& study, const Results& results, std::size_t number) {
+  const RequirementResult& result = results.requirements[number];
+  return result.worstSample >= 0 && std::fabs(result.worstMargin) <= doubtOf(study, results, number);
 }
 
 }  // namespace gamut

@@ -8,7 +8,10 @@
 
 namespace gamut {
 
+struct Results;
 struct Run;
+struct SampledMotion;
+struct Study;
 
 /// Values that may violate a requirement, one a quantity. Of what varies in time, the number that chooses its course,
 /// as samples draw it; NaN: whatever it does.
@@ -33,11 +36,12 @@ class Suspects {
 /// Proves by thin flows that requirement `number` is violated: by one of the samples, the worst first, or by one of
 /// `others`, whose values models suspect. Fills what is known of the violation; else says why that of the worst sample
 /// is not proved, in words, or nothing.
-std::string findViolation(Run& run, std::size_t number, std::vector<Suspect> others);
+std::string findViolation(const Run& run, const SampledMotion& samples, std::size_t number, std::vector<Suspect> others,
+                          Results& results);
 
 /// Whether the worst sample violates it by more than the error of its integration.
-bool isViolatedInSimulation(const Run& run, std::size_t number);
+bool isViolatedInSimulation(const Study& study, const Results& results, std::size_t number);
 /// Whether it comes as near to the limit as that error.
-bool isJustMet(const Run& run, std::size_t number);
+bool isJustMet(const Study& study, const Results& results, std::size_t number);
 
 }  // namespace gamut

@@ -11,7 +11,7 @@
 #include "reports/verdict.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/running/run.hpp"
-#include "studies/running/units.hpp"
+#include "studies/running/context.hpp"
 #include "studies/settings.hpp"
 #include "tests/studies/sample_study.hpp"
 
@@ -59,11 +59,11 @@ class CoreAnalysis final : public AnalysisOf<CoreAnalysis, CoreResult> {
     return Refusal{"share", "there is no enclosure", "\"interval\" in study.compare"};
   }
 
-  void find(Run& run, CoreResult& result) const {
+  void find(Run& run, const Results& before, CoreResult& result) const {
     if (times_ == 99) throw std::bad_alloc();
-    const Bounds& at = run.results.interval.at;
+    const Bounds& at = before.interval.at;
     result.share = share_;
-    result.reached = run.results.interval.reached;
+    result.reached = before.interval.reached;
     result.core = run.emptyBounds();
     result.widened.assign(run.study.outputs.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t k = 0; k < run.study.outputs.size(); ++k) {

@@ -1,0 +1,63 @@
+// What every unit of a run has at hand: the machine, how it is run, who watches, and what is spent.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "analyses/work.hpp"
+#include "studies/machine.hpp"
+#include "studies/results/results.hpp"
+#include "studies/running/run.hpp"
+#include "studies/watch.hpp"
+
+namespace gamut {
+
+/// Work (analyses/work.hpp) that was done for each.
+struct Spent {
+  double enclosure = 0, samples = 0, cuts = 0, requirements = 0, probabilities = 0;
+};
+
+struct Run {
+  Run(const Machine& whatMoves, const RunOptions& howToRun, const Limits& itsLimits);
+
+  Bounds emptyBounds() const { return {study.times.size(), study.outputs.size()}; }
+  /// What tells the user how far a task is.
+  std::function<void(double)> progressOf(const std::string& task) const;
+  /// What enclosure and samples took: of this, others have their shares.
+  double basis() const;
+  bool isEnclosed() const { return study.asksFor<IntervalResult>() || study.asksFor<FuzzyResult>(); }
+  bool moves() const { return study.analysis != Study::Analysis::kinematics; }
+
+  const Machine& machine;
+  const Study& study;  ///< the machine's
+  const RunOptions& options;
+  const Limits limits;
+  Watch watch;
+  Spent spent;  ///< by the units, as they end
+};
+
+/// While it lives, the work of this thread, and of those that it waits for, and the CPU time of all, s, are charged
+/// there; where there are none, to nobody.
+class Charge {
+ public:
+  explicit Charge(double* work, double* cpu = nullptr) : work_(work), cpu_(cpu) {}
+  ~Charge() {
+    if (work_ != nullptr) *work_ += static_cast<double>(Work::counted() - counted_);
+    if (cpu_ != nullptr) *cpu_ += processCpuSeconds() - began_;
+  }
+  Charge(const Charge&) = delete;
+  Charge& operator=(const Charge&) = delete;
+
+ private:
+  double* const work_;
+  double* const cpu_;
+  const std::uint64_t counted_ = Work::counted();
+  const double began_ = processCpuSeconds();
+};
+
+/// So much work may still be done for requirements, or for probabilities: their share of what enclosure and samples
+/// took, and what answers before them have left. Counted, so that it is the same in every run.
+double workForRequirements(const Run& run);
+double workForProbabilities(const Run& run);
+
+}  // namespace gamut
