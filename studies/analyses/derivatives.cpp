@@ -7,8 +7,8 @@
 
 #include "analyses/flow/derivatives.hpp"
 #include "studies/analysis.hpp"
-#include "studies/running/flow_of_study.hpp"
 #include "studies/running/context.hpp"
+#include "studies/running/flow_of_study.hpp"
 #include "studies/settings.hpp"
 
 namespace gamut {

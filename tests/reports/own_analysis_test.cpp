@@ -10,8 +10,8 @@
 #include "reports/summary.hpp"
 #include "reports/verdict.hpp"
 #include "studies/results/results_file.hpp"
-#include "studies/running/run.hpp"
 #include "studies/running/context.hpp"
+#include "studies/running/run.hpp"
 #include "studies/settings.hpp"
 #include "tests/studies/sample_study.hpp"
 
