@@ -23,8 +23,8 @@
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/evaluation/sample_pack.hpp"
-#include "studies/reading/robot_elements.hpp"
-#include "studies/robot.hpp"
+#include "studies/robots/robot.hpp"
+#include "studies/robots/robot_elements.hpp"
 
 namespace gamut::benchmarks {
 namespace {

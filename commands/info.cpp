@@ -11,7 +11,7 @@
 #include "commands/table.hpp"
 #include "reports/summary.hpp"
 #include "studies/results/results_file.hpp"
-#include "studies/robot.hpp"
+#include "studies/robots/robot.hpp"
 
 namespace gamut::commands {
 namespace {

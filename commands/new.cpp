@@ -14,7 +14,7 @@
 #include "commands/table.hpp"
 #include "studies/machine.hpp"
 #include "studies/printable.hpp"
-#include "studies/robot.hpp"
+#include "studies/robots/robot.hpp"
 
 namespace gamut::commands {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "studies/robot.hpp"
+#include "studies/robots/robot.hpp"
 
 namespace gamut {
 

@@ -14,9 +14,9 @@
 #include "mechanics/description/orientation.hpp"
 #include "mechanics/description/words.hpp"
 #include "studies/printable.hpp"
-#include "studies/reading/robot_elements.hpp"
 #include "studies/reading/table_reader.hpp"
-#include "studies/robot.hpp"
+#include "studies/robots/robot.hpp"
+#include "studies/robots/robot_elements.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {

@@ -12,7 +12,7 @@
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
-#include "studies/robot.hpp"
+#include "studies/robots/robot.hpp"
 #include "studies/study.hpp"
 #include "tests/studies/sample_robots.hpp"
 

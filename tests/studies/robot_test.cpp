@@ -8,7 +8,7 @@
 #include "mechanics/elements/all.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
-#include "studies/robot.hpp"
+#include "studies/robots/robot.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
 #include "tests/studies/sample_robots.hpp"

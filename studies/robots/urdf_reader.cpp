@@ -16,8 +16,8 @@
 #include "mechanics/element_types.hpp"
 #include "mechanics/elements/inertia.hpp"
 #include "studies/readable.hpp"
-#include "studies/reading/xml_source.hpp"
-#include "studies/robot.hpp"
+#include "studies/robots/robot.hpp"
+#include "studies/robots/xml_source.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {

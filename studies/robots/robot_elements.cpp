@@ -1,5 +1,5 @@
 // Joints stand behind frames of their own, so that each number of the file is one number of the mechanism, by name.
-#include "studies/reading/robot_elements.hpp"
+#include "studies/robots/robot_elements.hpp"
 
 #include <fmt/format.h>
 

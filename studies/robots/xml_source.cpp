@@ -1,5 +1,5 @@
 // Lines, messages and numbers of an XML file.
-#include "studies/reading/xml_source.hpp"
+#include "studies/robots/xml_source.hpp"
 
 #include <fmt/format.h>
 

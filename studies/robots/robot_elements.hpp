@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mechanics/description/mechanism.hpp"
-#include "studies/robot.hpp"
+#include "studies/robots/robot.hpp"
 
 namespace gamut {
 
