@@ -121,8 +121,8 @@ Json shapeSchema(const Types& types) {
 /// Plain types only: editors find neither keys nor meanings behind references and alternatives.
 class SchemaWriter final : public Settings {
  public:
-  /// `shapes`: what distributions and memberships are.
-  explicit SchemaWriter(const Json& shapes) : shapes_(shapes) {}
+  /// `longer`: schemas by their words.
+  explicit SchemaWriter(const Json& longer) : longer_(longer) {}
 
   void any(const Key& key) override { add(key, Json::object()); }
 
@@ -145,12 +145,12 @@ class SchemaWriter final : public Settings {
     add(key, {{"enum", words}});
   }
   void table(const Key& key, const std::function<void(Settings&)>& describe) override {
-    SchemaWriter within(shapes_);
+    SchemaWriter within(longer_);
     describe(within);
     add(key, within.schema());
   }
   void own(const Key& key, const char* schema) override {
-    add(key, shapes_.contains(schema) ? shapes_[schema] : Json::parse(schema));
+    add(key, longer_.contains(schema) ? longer_[schema] : Json::parse(schema));
   }
 
   Json schema() const {
@@ -166,12 +166,12 @@ class SchemaWriter final : public Settings {
 
   void add(const Key& key, Json schema) {
     const bool isRequired = key.otherwise == "required";
-    schema["description"] = described(key.meaning, isRequired ? "" : key.otherwise);
+    if (!key.meaning.empty()) schema["description"] = described(key.meaning, isRequired ? "" : key.otherwise);
     properties_[key.name] = std::move(schema);
     if (isRequired) required_.push_back(key.name);
   }
 
-  const Json& shapes_;
+  const Json& longer_;
   Json properties_ = Json::object(), required_ = Json::array();
 };
 
@@ -197,40 +197,26 @@ Json elementSchema(const Described& type) {
   return schema;
 }
 
-Json mechanismSchema(const std::vector<Described>& types) {
+Json elementsSchema(const std::vector<Described>& types) {
   std::vector<std::pair<std::string, Json>> elements;
   for (const Described& type : types) elements.emplace_back(type.type(), elementSchema(type));
-  const auto vector = [](const char* meaning) {
-    return Json{{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"description", meaning}};
-  };
-  const auto of = [](const char* type, const char* meaning) { return Json{{"type", type}, {"description", meaning}}; };
-  Json properties = {
-      {"gravity", vector("[x, y, z], the acceleration of free fall, m/s^2. Otherwise: none.")},
-      {"base_acceleration",
-       vector("[x, y, z], of the frame `inertial`, m/s^2: numbers, or expressions of time and parameters")},
-      {"parameters", of("object", "numbers with names, which others may follow from")},
-      {"urdf", of("string", "a robot's description (URDF), from the study's folder")},
-      {"base",
-       {{"enum", {"fixed", "free"}},
-        {"description", "of the robot: whether its root moves freely. Otherwise: fixed."}}},
-      {"damping", of("boolean", "of the robot: whether joints have their viscous damping. Otherwise: true.")},
-      {"friction", of("boolean", "of the robot: whether joints have their dry friction. Otherwise: true.")},
-      {"mimic", of("boolean", "of the robot: whether joints follow others. Otherwise: true.")},
-      {"initial", of("object", "of the robot: where its joints are at the start, and how fast. Otherwise: 0.")},
-      {"element", {{"type", "array"}, {"items", byType(elements, Json::array({"type", "name"}))}}}};
-  return closedTable(std::move(properties));
+  return {{"type", "array"}, {"items", byType(elements, Json::array({"type", "name"}))}};
 }
 
 }  // namespace
 
 std::string studySchema(const std::vector<Described>& types) {
-  Json properties = {{"mechanism", mechanismSchema(types)}}, required = Json::array({"mechanism"});
+  const Json longer = {{"distribution", shapeSchema(distributionTypes())},
+                       {"membership", shapeSchema(membershipTypes())},
+                       {"elements", elementsSchema(types)}};
+  SchemaWriter mechanism(longer);
+  RobotChoices robot;
+  describeMechanism(mechanism, true, robot);
+  Json properties = {{"mechanism", mechanism.schema()}}, required = Json::array({"mechanism"});
   properties["mechanism"]["description"] = "what moves: elements, in the order of their assembly";
-  const Json shapes = {{"distribution", shapeSchema(distributionTypes())},
-                       {"membership", shapeSchema(membershipTypes())}};
   Study study;
   for (const StudySection& section : studySections(study)) {
-    SchemaWriter writer(shapes);
+    SchemaWriter writer(longer);
     section.describe(writer, study);
     Json schema = section.isList ? Json{{"type", "array"}, {"items", writer.schema()}} : writer.schema();
     schema["description"] = section.meaning;

@@ -250,6 +250,24 @@ class KeyList final : public Settings {
 
 }  // namespace
 
+void describeMechanism(Settings& s, bool hasRobot, RobotChoices& robot) {
+  constexpr const char* vector = R"({"type": "array", "minItems": 3, "maxItems": 3})";
+  s.own({"gravity", "[x, y, z], the acceleration of free fall, m/s^2", "none"}, vector);
+  s.own({"base_acceleration",
+         "[x, y, z], of the frame `inertial`, m/s^2: numbers, or expressions of time and parameters"},
+        vector);
+  s.own({"parameters", "numbers with names, which others may follow from"}, R"({"type": "object"})");
+  s.own({"element"}, "elements");
+  s.own({"urdf", "a robot's description (URDF), from the study's folder"}, text);
+  if (!hasRobot) return;
+  s.choice({"base", "of the robot: whether its root moves freely", "fixed"}, {"fixed", "free"},
+           [&](const std::string& word) { robot.isFree = word == "free"; });
+  s.flag({"damping", "of the robot: whether joints have their viscous damping", "true"}, robot.damping);
+  s.flag({"friction", "of the robot: whether joints have their dry friction", "true"}, robot.friction);
+  s.flag({"mimic", "of the robot: whether joints follow others", "true"}, robot.mimic);
+  s.own({"initial", "of the robot: where its joints are at the start, and how fast", "0"}, R"({"type": "object"})");
+}
+
 std::vector<StudySection> studySections(const Study& study) {
   std::vector<StudySection> sections{
       {"study", false, true, "what is asked of the mechanism, and when", describeStudy},

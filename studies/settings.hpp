@@ -58,7 +58,8 @@ class Settings {
   }
   /// A table of settings.
   virtual void table(const Key& key, const std::function<void(Settings&)>& /*describe*/) { any(key); }
-  /// What its reader reads for itself; `schema` is JSON Schema, or the word "distribution" or "membership".
+  /// What its reader reads for itself; `schema` is JSON Schema, or a word for a longer one: "distribution",
+  /// "membership", "elements".
   virtual void own(const Key& key, const char* /*schema*/) { any(key); }
 
   void optional(const Key& key, const NumberOf& of, std::optional<double>& value) {
@@ -74,6 +75,15 @@ class Settings {
     value = static_cast<T>(number);
   }
 };
+
+/// What of a robot (URDF) is taken, and how it stands.
+struct RobotChoices {
+  bool isFree = false;  ///< its root moves in six degrees of freedom; else it is fixed to the inertial frame
+  bool damping = true, friction = true, mimic = true;
+};
+
+/// The keys of [mechanism], those of a robot where there is one.
+void describeMechanism(Settings& settings, bool hasRobot, RobotChoices& robot);
 
 struct StudySection {
   std::string name;  ///< "interval"

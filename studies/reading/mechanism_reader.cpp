@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "mechanics/description/orientation.hpp"
 #include "mechanics/description/words.hpp"
 #include "studies/printable.hpp"
+#include "studies/reading/settings_reader.hpp"
 #include "studies/reading/table_reader.hpp"
 #include "studies/robots/robot.hpp"
 #include "studies/robots/robot_elements.hpp"
@@ -28,7 +30,10 @@ class MechanismReader {
  public:
   MechanismReader(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
                   const std::optional<FilesAtHand>& files)
-      : source_(source), types_(types), atHand_(files), section_(source, table, "mechanism", keysOf(table)) {}
+      : source_(source),
+        types_(types),
+        atHand_(files),
+        section_(source, table, "mechanism", keysOf(described(table.contains("urdf")))) {}
 
   ReadMechanism read() {
     readParameters(section_, "");
@@ -52,10 +57,8 @@ class MechanismReader {
   }
 
  private:
-  static std::vector<std::string> keysOf(const toml::table& table) {
-    std::vector<std::string> keys = {"gravity", "base_acceleration", "parameters", "element", "urdf"};
-    if (table.contains("urdf")) keys.insert(keys.end(), {"base", "damping", "friction", "mimic", "initial"});
-    return keys;
+  std::function<void(Settings&)> described(bool hasRobot) {
+    return [this, hasRobot](Settings& settings) { describeMechanism(settings, hasRobot, choices_); };
   }
 
   /// A column of a table of this name.
@@ -73,13 +76,7 @@ class MechanismReader {
     const Robot robot = readRobotText(files_.robot, atHand_ ? path + " in " + source_.name() : found);
     notes_ = robot.notes;
 
-    RobotChoices choices;
-    if (const toml::node* base = section_.find("base"))
-      choices.isFree = source_.asChoice(*base, "mechanism.base", {"fixed", "free"}) == "free";
-    choices.damping = section_.flag("damping", true);
-    choices.friction = section_.flag("friction", true);
-    choices.mimic = section_.flag("mimic", true);
-
+    readSettings(section_, described(true));
     const toml::node* initial = section_.find("initial");
     std::map<std::string, const toml::node*> given;
     if (initial != nullptr)
@@ -87,7 +84,7 @@ class MechanismReader {
                               "a table of values by their names, such as { shoulder.angle = \"30 deg\" }"),
               "", given);
     std::vector<RobotElement> elements;
-    guarded(node, [&] { elements = robotElements(robot, choices, mechanism_); });
+    guarded(node, [&] { elements = robotElements(robot, choices_, mechanism_); });
     std::vector<std::string> known;
     for (RobotElement& element : elements) {
       InitialValues initialValues(*this, element.element.name(), given, known);
@@ -616,6 +613,7 @@ class MechanismReader {
   const TomlSource& source_;
   const std::vector<Described>& types_;
   const std::optional<FilesAtHand>& atHand_;
+  RobotChoices choices_;
   TomlSection section_;
   Mechanism mechanism_;
   FilesAtHand files_;

@@ -81,4 +81,9 @@ TomlSection readSettings(const TomlSource& source, const toml::table& table, std
   return section;
 }
 
+void readSettings(const TomlSection& section, const std::function<void(Settings&)>& describe) {
+  SettingsReader reader(section, true);
+  describe(reader);
+}
+
 }  // namespace gamut

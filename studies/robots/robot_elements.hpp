@@ -5,14 +5,9 @@
 
 #include "mechanics/description/mechanism.hpp"
 #include "studies/robots/robot.hpp"
+#include "studies/settings.hpp"
 
 namespace gamut {
-
-/// What of a robot is taken, and how it stands.
-struct RobotChoices {
-  bool isFree = false;  ///< its root moves in six degrees of freedom; else it is fixed to the inertial frame
-  bool damping = true, friction = true, mimic = true;
-};
 
 /// An element, and where in the robot's file it comes from.
 struct RobotElement {
