@@ -323,11 +323,6 @@ std::string TomlSection::text(std::string_view key, const std::string& otherwise
   return find(key) != nullptr ? text(key) : otherwise;
 }
 
-bool TomlSection::flag(std::string_view key, bool otherwise) const {
-  const toml::node* node = find(key);
-  return node == nullptr ? otherwise : source_->asBool(*node, nameOf(key));
-}
-
 std::int64_t TomlSection::integer(std::string_view key, std::int64_t otherwise, std::int64_t least,
                                   std::int64_t most) const {
   const toml::node* node = find(key);

@@ -111,7 +111,6 @@ class TomlSection {
 
   std::string text(std::string_view key) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
-  bool flag(std::string_view key, bool otherwise) const;
   std::int64_t integer(std::string_view key, std::int64_t otherwise, std::int64_t least, std::int64_t most) const;
   /// A dimensionless positive number, nearest double.
   double positive(std::string_view key, double otherwise) const;
