@@ -47,7 +47,7 @@ class Encloser {
     run_.spent.cuts += levelWork_;
     found.models = {std::move(models_), study_.flow.tightness, run_.spent.enclosure, tighter()};
     interval.cpu = cpu - cutCpu_;
-    cutCpu_ = cpu - (study_.asksFor<IntervalResult>() ? interval.cpu : 0);
+    if (!study_.asksFor<IntervalResult>()) cutCpu_ = cpu;  // no other answer is there to be charged
     interval.reached = found.reached;
     interval.why = found.why;
     interval.advice = found.advice;
