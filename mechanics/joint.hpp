@@ -40,11 +40,11 @@ class Joint : public Transmission<S> {
  public:
   /// A joint without speeds fixes K' to K, or moves it by what is not its own.
   Joint(Frame<S>& from, Frame<S>& to, std::vector<Speed<S>*> speeds = {})
-      : Transmission<S>(from, to), own_(std::move(speeds)) {}
+      : Transmission<S>(from, to), speeds_(std::move(speeds)) {}
 
   void doMotion(MotionLevel level = MotionLevel::all) final;
   void doForce(ForceKind = ForceKind::all) final;
-  std::vector<Speed<S>*> speeds() const final { return hasSpeeds_ ? own_ : std::vector<Speed<S>*>{}; }
+  std::vector<Speed<S>*> speeds() const final { return hasSpeeds_ ? speeds_ : std::vector<Speed<S>*>{}; }
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const final;
   TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const final;
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) final;
@@ -66,7 +66,7 @@ class Joint : public Transmission<S> {
   /// Σ s x, x the rate or the acceleration of each speed.
   Twist<S> sum(const std::vector<Twist<S>>& s, S Speed<S>::*x) const;
 
-  std::vector<Speed<S>*> own_;
+  std::vector<Speed<S>*> speeds_;
   bool hasSpeeds_ = true;
   Place<S> place_;  // at the last motion
 };

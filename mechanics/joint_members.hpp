@@ -41,7 +41,7 @@ void Joint<S>::doForce(ForceKind) {
   this->from_.f += felt;
   this->from_.tau += place_.rotation.toParent(tau) + place_.offset.cross(felt);
   const std::vector<Twist<S>> s = motions();
-  for (std::size_t i = 0; i < own_.size(); ++i) own_[i]->force += s[i].angular.dot(tau) + s[i].linear.dot(f);
+  for (std::size_t i = 0; i < speeds_.size(); ++i) speeds_[i]->force += s[i].angular.dot(tau) + s[i].linear.dot(f);
 }
 
 template <class S>
@@ -71,9 +71,9 @@ Twist<S> Joint<S>::bias(const Vector3<S>& carried, const Twist<S>& own) const {
 template <class S>
 Twist<S> Joint<S>::sum(const std::vector<Twist<S>>& s, S Speed<S>::*x) const {
   Twist<S> sum;
-  for (std::size_t i = 0; i < own_.size(); ++i) {
-    sum.angular += s[i].angular * (own_[i]->*x);
-    sum.linear += s[i].linear * (own_[i]->*x);
+  for (std::size_t i = 0; i < speeds_.size(); ++i) {
+    sum.angular += s[i].angular * (speeds_[i]->*x);
+    sum.linear += s[i].linear * (speeds_[i]->*x);
   }
   return sum;
 }

@@ -49,13 +49,14 @@ template <class S>
 class SphericalJoint final : public Joint<S> {
  public:
   SphericalJoint(Frame<S>& from, Frame<S>& to, Orientation<S> orientation)
-      : Joint<S>(from, to, {orientation.speeds.begin(), orientation.speeds.end()}), own_(std::move(orientation)) {}
+      : Joint<S>(from, to, {orientation.speeds.begin(), orientation.speeds.end()}),
+        orientation_(std::move(orientation)) {}
 
  private:
-  Place<S> place() const override { return {Rotation<S>(own_.value())}; }
+  Place<S> place() const override { return {Rotation<S>(orientation_.value())}; }
   std::vector<Twist<S>> motions() const override { return {{axisX.unit<S>()}, {axisY.unit<S>()}, {axisZ.unit<S>()}}; }
 
-  Orientation<S> own_;
+  Orientation<S> orientation_;
 };
 
 /// Turns the axes of what moves already, as a ball that rolls does in axes that do not turn with it: by A(e) alone.
@@ -63,14 +64,14 @@ template <class S>
 class BallAxes final : public Joint<S> {
  public:
   BallAxes(Frame<S>& from, Frame<S>& to, Orientation<S> orientation)
-      : Joint<S>(from, to), own_(std::move(orientation)) {}
+      : Joint<S>(from, to), orientation_(std::move(orientation)) {}
 
-  Rotation<S> rotation() const { return Rotation<S>(own_.value()); }
+  Rotation<S> rotation() const { return Rotation<S>(orientation_.value()); }
 
  private:
   Place<S> place() const override { return {rotation()}; }
 
-  Orientation<S> own_;
+  Orientation<S> orientation_;
 };
 
 GAMUT_COMPILED_ELSEWHERE(RevoluteJoint)

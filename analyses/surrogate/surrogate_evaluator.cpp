@@ -245,20 +245,21 @@ void SurrogateEvaluator::settle(std::span<double> values) const {
 /// At most `together` samples, and how they are evaluated.
 class SurrogateEvaluator::Block {
  public:
-  explicit Block(const SurrogateEvaluator& of) : of_(of), xi_(together * of.quantities_) {}
+  explicit Block(const SurrogateEvaluator& of) : evaluator_(of), xi_(together * of.quantities_) {}
 
   void take(std::span<const double> values, std::size_t count) {
-    const std::size_t n = of_.quantities_;
+    const std::size_t n = evaluator_.quantities_;
     count_ = count;
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t q = 0; q < n; ++q)
-        xi_[i * n + q] = of_.half_[q] == 0 ? 0.0 : (values[i * n + q] - of_.centre_[q]) / of_.half_[q];
+        xi_[i * n + q] =
+            evaluator_.half_[q] == 0 ? 0.0 : (values[i * n + q] - evaluator_.centre_[q]) / evaluator_.half_[q];
   }
 
   /// A group's outputs of each sample to where it begins, `stride` behind those of the sample before, and, unless there
   /// is no room for them, their errors.
   void evaluate(const Group& group, double* outputs, double* errors, std::size_t stride) {
-    const std::size_t n = of_.quantities_, cells = group.rows * of_.outputs_;
+    const std::size_t n = evaluator_.quantities_, cells = group.rows * evaluator_.outputs_;
     members_.assign(group.parts.size(), {});
     for (std::size_t i = 0; i < count_; ++i) {
       std::size_t p = 0;
@@ -296,7 +297,7 @@ class SurrogateEvaluator::Block {
   }
 
  private:
-  const SurrogateEvaluator& of_;
+  const SurrogateEvaluator& evaluator_;
   std::size_t count_ = 0;
   std::vector<double> xi_;
   std::vector<std::vector<std::size_t>> members_;

@@ -354,7 +354,7 @@ class Mechanism::Checker final : public Fields {
       refuse("a state cannot be named " + inQuotes(element_) + ": that is a unit or a number", "another name");
     std::string unit = word.unit;
     if (unit.empty()) unit = gamut::unitOf(m_.dimensionOf(initial));
-    m_.addState(m_.own_, element_, unit, initial);
+    m_.addState(m_.ownStates_, element_, unit, initial);
     return unit;
   }
 
@@ -482,7 +482,7 @@ void Mechanism::setBaseAcceleration(ExpressionVector acceleration) {
 }
 
 const std::string* Mechanism::unitOfMeasured(const std::string& name) const {
-  for (const auto* states : {&positions_, &speeds_, &own_})
+  for (const auto* states : {&positions_, &speeds_, &ownStates_})
     if (const State* state = states->find(name)) return &state->unit;
   static const std::string radian = "rad", metre = "m", radianRate = "rad/s", metreRate = "m/s";
   if (const JointCoordinate* coordinate = coordinateWith(name); coordinate != nullptr && coordinate->isDriven) {
@@ -534,7 +534,7 @@ void Mechanism::checkSignal(const Signal& signal) const {
     throw UnknownName("quantity", used, known, remarkOn(used, signal.name), signal.name);
   }
   if (gamut::dimensionOf(signal.unit) == Dimension{.time = -1} && isWithoutUnits(signal.expression)) return;
-  const State* state = signal.reach == Reach::solution ? own_.find(signal.element) : nullptr;
+  const State* state = signal.reach == Reach::solution ? ownStates_.find(signal.element) : nullptr;
   try {
     check(signal.expression, signal.name, signal.unit);
   } catch (const std::invalid_argument&) {  // a unit that does not fit
@@ -573,7 +573,7 @@ bool Mechanism::isWithoutUnits(const Expression& rate) const {
 }
 
 void Mechanism::check() const {
-  if (positions_.empty() && speeds_.empty() && own_.empty() && coordinates_.empty() && parameters_.empty())
+  if (positions_.empty() && speeds_.empty() && ownStates_.empty() && coordinates_.empty() && parameters_.empty())
     refuse("the mechanism has no joint, no state and no parameter: there is nothing to ask for");
   checkSignals(baseAccelerationName);
   for (const Described& element : elements_) {
@@ -701,14 +701,14 @@ Interval Mechanism::rangeOf(const Expression& number, const std::map<std::string
 
 std::vector<std::string> Mechanism::stateNames() const {
   std::vector<std::string> names;
-  for (const auto* states : {&positions_, &speeds_, &own_})
+  for (const auto* states : {&positions_, &speeds_, &ownStates_})
     for (const State& state : *states) names.push_back(state.name);
   return names;
 }
 
 std::vector<Expression> Mechanism::initialState() const {
   std::vector<Expression> initial;
-  for (const auto* states : {&positions_, &speeds_, &own_})
+  for (const auto* states : {&positions_, &speeds_, &ownStates_})
     for (const State& state : *states) initial.push_back(state.initial);
   return initial;
 }

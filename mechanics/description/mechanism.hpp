@@ -235,7 +235,7 @@ class Mechanism {
   std::unordered_map<std::string, std::string> firstFrames_;  // that elements move
   Named<NamedValue> parameters_, initials_;
   Named<Derived> derived_;
-  Named<State> positions_, speeds_, own_;
+  Named<State> positions_, speeds_, ownStates_;
   Named<JointCoordinate> coordinates_;
   std::unordered_map<std::string, std::string> coordinateOfRate_;
   std::unordered_map<std::string, std::vector<std::string>> coordinatesOf_;  // elements

@@ -42,11 +42,11 @@ template <class S>
 class GlidingJoint final : public Joint<S> {
  public:
   GlidingJoint(Frame<S>& from, Frame<S>& to, Gliding<S> gliding, PlaceInPlane<S> place)
-      : Joint<S>(from, to, gliding.speeds()), own_(gliding), place_(place) {}
+      : Joint<S>(from, to, gliding.speeds()), gliding_(gliding), place_(place) {}
 
  private:
   Place<S> place() const override {
-    return {Rotation<S>(axisZ, own_.angle->position), {*place_[0], *place_[1], S(0.0)}};
+    return {Rotation<S>(axisZ, gliding_.angle->position), {*place_[0], *place_[1], S(0.0)}};
   }
   /// The last is of `across`, where that is.
   std::vector<Twist<S>> motions() const override {
@@ -56,7 +56,7 @@ class GlidingJoint final : public Joint<S> {
     return {carried.cross(own.angular), Vector3<S>(S(2.0) * carried + own.angular).cross(own.linear)};
   }
 
-  Gliding<S> own_;
+  Gliding<S> gliding_;
   PlaceInPlane<S> place_;
 };
 
