@@ -28,8 +28,8 @@ Action check(CLI::App& command) {
     printVerdict(stdout, verdict);
     const ExitCode ofSamples = exitCode(verdict);
     if (!*countsRequirements || ofSamples == refuted) return ofSamples;
-    const std::string word = wordOfRequirements(results);
-    return word == "violated" ? refuted : word == "open" ? endedEarly : ofSamples;
+    const Decision word = wordOfRequirements(results);
+    return word == Decision::violated ? refuted : word == Decision::open ? endedEarly : ofSamples;
   };
 }
 

@@ -48,7 +48,7 @@ ExitCode compare(const CompareArguments& arguments) {
   const Both<std::string> files{arguments.first, arguments.second};
   sayOut(arguments.json ? comparisonJson(difference, first, second, files) + "\n"
                         : comparisonText(difference, first, second, files));
-  return difference.word == "agree" ? done : refuted;
+  return difference.word == Difference::Word::agree ? done : refuted;
 }
 
 }  // namespace

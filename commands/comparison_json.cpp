@@ -1,7 +1,6 @@
 // Numbers are the shortest decimals that give the same double back; what is not finite, or not known, is null.
 #include "commands/comparison_json.hpp"
 
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -101,23 +100,11 @@ Json requirementsArray(const Changes& changes) {
 
 }  // namespace
 
-std::string wordOf(Contradiction::Of of) {
-  constexpr std::array words{"enclosure", "tube",      "plain_intervals", "alpha_cut",   "sample",     "distribution",
-                             "mean",      "deviation", "first_index",     "total_index", "requirement"};
-  return words.at(static_cast<std::size_t>(of));
-}
-
-std::string wordOf(Excess::Of of) {
-  constexpr std::array words{"wider",   "alpha_cuts_wider", "overestimation", "gap",
-                             "shorter", "requirement",      "verdict",        "cpu"};
-  return words.at(static_cast<std::size_t>(of));
-}
-
 std::string comparisonJson(const Difference& difference, const Results& first, const Results& second,
                            const Both<std::string>& files) {
   const auto& [shared, relation, contradictions, changes, excesses, word] = difference;
   Json json;
-  json["verdict"] = word;
+  json["verdict"] = wordOf(word);
   json["files"] = list(files);
   json["versions"] = list(Both<std::string>{first.version, second.version});
   json["question"] = questionObject(relation);

@@ -68,10 +68,11 @@ std::string samplesText(const Results& first, const Results& second) {
 }
 
 std::string sentence(const Difference& d) {
-  if (d.word == "error") return "One of both is wrong: what A proves contradicts what B proves of the same motion.";
-  if (d.word == "incompatible")
+  if (d.word == Difference::Word::error)
+    return "One of both is wrong: what A proves contradicts what B proves of the same motion.";
+  if (d.word == Difference::Word::incompatible)
     return "The models contradict each other: what is proved of one cannot hold of the other. That is no error.";
-  if (d.word == "worse") return "Nothing contradicts, but B is worse than A by more than is tolerated.";
+  if (d.word == Difference::Word::worse) return "Nothing contradicts, but B is worse than A by more than is tolerated.";
   return d.contradictions.compared == 0 ? "There is nothing that could contradict, and nothing is worse."
                                         : "Nothing contradicts, and nothing is worse than is tolerated.";
 }

@@ -252,11 +252,11 @@ std::string unshownRequirements(const Results& results) {
   return count > mostShown ? fmt::format("and {} more in the results file", count - mostShown) : "";
 }
 
-std::string wordOfRequirements(const Results& results) {
-  if (std::ranges::any_of(results.requirements, isViolated)) return "violated";
+Decision wordOfRequirements(const Results& results) {
+  if (std::ranges::any_of(results.requirements, isViolated)) return Decision::violated;
   return std::ranges::all_of(results.requirements, [](const RequirementResult& r) { return r.word == Decision::met; })
-             ? "met"
-             : "open";
+             ? Decision::met
+             : Decision::open;
 }
 
 std::string sentenceOfRequirements(const Results& results) {

@@ -38,8 +38,8 @@ std::string sampledMissOf(const Results& results, const RequirementResult& requi
 /// with 95 % confidence; empty where they do not, or need not since it is decided.
 std::string estimateOf(const RequirementResult& requirement);
 
-/// What they are together: "met" if all are, "violated" if one is, for some values at least, otherwise "open".
-std::string wordOfRequirements(const Results& results);
+/// What they are together: met if all are, violated if one is, for some values at least, otherwise open.
+Decision wordOfRequirements(const Results& results);
 
 /// One sentence about all of them; empty without requirements.
 std::string sentenceOfRequirements(const Results& results);

@@ -141,8 +141,8 @@ std::string listText(const Group& group) {
 
 /// Distribution and membership, or what stands in the place of both.
 std::string shapesText(const Results& results, const UncertainInfo& uncertain) {
-  const std::string distribution = shapeText(results, uncertain, "distribution"),
-                    membership = shapeText(results, uncertain, "membership");
+  const std::string distribution = shapeText(results, uncertain, ShapeKind::distribution),
+                    membership = shapeText(results, uncertain, ShapeKind::membership);
   return distribution == membership ? distribution : distribution + ", " + membership;
 }
 
@@ -203,8 +203,7 @@ std::string spentText(const Results& results) {
 
 }  // namespace
 
-std::string shapeText(const Results& results, const UncertainInfo& uncertain, const std::string& shape) {
-  const std::string& name = shape == "distribution" ? uncertain.distribution : uncertain.membership;
+std::string shapeText(const Results& results, const UncertainInfo& uncertain, ShapeKind shape) {
   std::vector<std::string> numbers;
   double lower = uncertain.lower, upper = uncertain.upper;
   const Told told(uncertain);
@@ -255,9 +254,10 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
     numbers.insert(numbers.begin(), "on " + on);
   constexpr double least = 1.001 / 256;  // of what was looked at
   const std::string doubt =
-      shape == "membership" && uncertain.inconsistency > least
+      shape == ShapeKind::membership && uncertain.inconsistency > least
           ? fmt::format("; events are more probable than possible by up to {}", atMostText(uncertain.inconsistency, 2))
           : "";
+  const std::string& name = uncertain.shape(shape);
   return (numbers.empty() ? name : fmt::format("{} ({})", name, fmt::join(numbers, ", "))) + doubt;
 }
 

@@ -260,9 +260,9 @@ class Wording {
 
   /// By what it was decided, in words.
   static std::string judgeText(const DisputedSample& sample) {
-    return sample.decided == "Taylor 53 bits"    ? "a Taylor series in double precision"
-           : sample.decided == "Taylor 128 bits" ? "Taylor series in 128 bits"
-                                                 : sample.decided;
+    return sample.decided == Decider::inDoubles   ? "a Taylor series in double precision"
+           : sample.decided == Decider::in128Bits ? "Taylor series in 128 bits"
+                                                  : std::string(wordOf(sample.decided));
   }
 
   /// How far it lies inside.

@@ -32,7 +32,7 @@ std::string titleOf(const std::string& words) { return "<title>" + escapeHtml(wo
 
 std::string titleOf(const PartInfo& part) {
   std::string words = part.name + " (" + part.type;
-  if (const Told told("kg", part.told); part.kind == "mass")
+  if (const Told told("kg", part.told); part.kind == PartKind::mass)
     words += ", " + inUnit(numberText(told.of(part.mass), 6), told.unit());
   return titleOf(words + ")");
 }
@@ -50,10 +50,10 @@ class Builder {
     addGround();
     for (const PartInfo& part : m_.parts) addLine(part);
     for (const PartInfo& part : m_.parts)
-      if (part.kind == "mass") addMass(part);
+      if (part.kind == PartKind::mass) addMass(part);
     for (std::size_t i = 0; i < m_.parts.size(); ++i) addJoint(i);
     if (isEnclosed(m_)) add(Form::now, 0, 0, "now", classOf("now"));  // masses are larger than most enclosures
-    if (numberOf("mass") <= mostNames) addNames();
+    if (numberOf(PartKind::mass) <= mostNames) addNames();
     for (std::size_t i = 0; i < std::min<std::size_t>(3, m_.directions.size()); ++i) {
       add(Form::arrow, i, 0, "", classOf("direction"));
       add(Form::letter, i, 0, "", classOf("middle"), escapeHtml(m_.directions[i].name));
@@ -71,7 +71,7 @@ class Builder {
   void add(Form form, const PartInfo& part, const std::string& look) {
     add(form, part.from, part.to, "nominal", look, titleOf(part));
   }
-  std::size_t numberOf(std::string_view kind) const {
+  std::size_t numberOf(PartKind kind) const {
     return static_cast<std::size_t>(std::ranges::count(m_.parts, kind, &PartInfo::kind));
   }
 
@@ -79,7 +79,7 @@ class Builder {
     s_.view = viewOf(m_);
     s_.points = m_.points.size();
     s_.time = m_.places.time;
-    s_.isDense = numberOf("joint") > mostLargeJoints;
+    s_.isDense = numberOf(PartKind::joint) > mostLargeJoints;
     const Places& p = m_.places;
     const Place& centre = s_.view.centre;
     s_.nominal = wholes(p.nominal, centre, s_.view.scale, std::round);
@@ -91,7 +91,7 @@ class Builder {
     for (std::size_t k = 0; k < m_.points.size(); ++k)
       if (!staysPut(k)) s_.moving.push_back(k);
     for (const PartInfo& part : m_.parts)
-      if ((part.kind == "rigid" || part.kind == "mass") && part.from != part.to)
+      if ((part.kind == PartKind::rigid || part.kind == PartKind::mass) && part.from != part.to)
         s_.links.emplace_back(part.from, part.to);
   }
 
@@ -108,7 +108,7 @@ class Builder {
   std::uint64_t footOf(std::uint64_t point) const {
     for (std::size_t step = 0; step < m_.parts.size(); ++step) {
       const auto below = std::ranges::find_if(m_.parts, [&](const PartInfo& part) {
-        return part.kind == "rigid" && part.to == point && part.from != point && m_.points[part.from].isGround;
+        return part.kind == PartKind::rigid && part.to == point && part.from != point && m_.points[part.from].isGround;
       });
       if (below == m_.parts.end()) break;
       point = below->from;
@@ -120,7 +120,7 @@ class Builder {
   void addGround() {
     std::vector<char> isHeld(m_.points.size(), 0);
     for (const PartInfo& part : m_.parts)
-      if ((part.kind == "joint" && part.turns + part.slides < 6) || part.kind == "spring")
+      if ((part.kind == PartKind::joint && part.turns + part.slides < 6) || part.kind == PartKind::spring)
         for (const std::uint64_t point : {part.from, part.to})
           if (m_.points[point].isGround) isHeld[footOf(point)] = 1;
     for (std::size_t k = 0; k < m_.points.size(); ++k)
@@ -133,20 +133,21 @@ class Builder {
 
   void addLine(const PartInfo& part) {
     if (part.from == part.to) return;
-    const bool slides = part.kind == "joint" && part.slides == 1 && part.turns <= 1, isSpring = part.kind == "spring";
+    const bool slides = part.kind == PartKind::joint && part.slides == 1 && part.turns <= 1,
+               isSpring = part.kind == PartKind::spring;
     add(isSpring ? Form::zigzag : Form::line, part,
-        classOf(part.kind == "rigid"  ? "link"
-                : part.kind == "mass" ? "arm"
-                : isSpring            ? "spring"
-                : slides              ? "rail"
-                                      : "loose"));
+        classOf(part.kind == PartKind::rigid  ? "link"
+                : part.kind == PartKind::mass ? "arm"
+                : isSpring                    ? "spring"
+                : slides                      ? "rail"
+                                              : "loose"));
   }
 
   void addMass(const PartInfo& part) {
     double most = 0;
     for (const PartInfo& other : m_.parts) most = std::max(most, other.mass);
     constexpr double least = 5, greatest = 13, together = 100;
-    const double largest = std::clamp(together / static_cast<double>(numberOf("mass")), least, greatest);
+    const double largest = std::clamp(together / static_cast<double>(numberOf(PartKind::mass)), least, greatest);
     const double radius = most > 0 ? std::max(least, largest * std::cbrt(std::max(part.mass, 0.0) / most)) : least;
     add(Form::circle, part, fmt::format("class=\"mass\" r=\"{:.1f}\"", radius));
   }
@@ -155,8 +156,9 @@ class Builder {
   /// slider is one with square ends; a universal joint has two pins, a ball none.
   void addJoint(std::size_t i) {
     const PartInfo& part = m_.parts[i];
-    if (part.kind == "rigid" && part.from == part.to && part.type == "weld") add(Form::line, part, classOf("weld"));
-    if (part.kind != "joint" || part.turns + part.slides > 3) return;
+    if (part.kind == PartKind::rigid && part.from == part.to && part.type == "weld")
+      add(Form::line, part, classOf("weld"));
+    if (part.kind != PartKind::joint || part.turns + part.slides > 3) return;
     bool hasPin = false;
     for (const std::string_view side : {"edge", "face"})
       for (std::size_t a = 0; a < m_.axes.size(); ++a) {
@@ -173,7 +175,7 @@ class Builder {
   void addNames() {
     std::vector<const PartInfo*> order;
     for (const PartInfo& part : m_.parts)
-      if (part.kind == "mass") order.push_back(&part);
+      if (part.kind == PartKind::mass) order.push_back(&part);
     std::ranges::stable_sort(order, std::greater<>(), [](const PartInfo* part) { return part->mass; });
     std::vector<std::pair<Sight, double>> shown;  // beginnings of baselines, and their lengths
     for (auto at = order.begin(); at != order.end(); ++at) {

@@ -74,9 +74,9 @@ std::string requirementList(const Results& results, const Verdict& verdict) {
         verdict.word == Agreement::outside
             ? fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name))
             : fmt::format("<li class=\"{}\"><b>{}</b> <span>{}</span> {}</li>\n", words[r].word,
-                          words[r].word == "partly"      ? "violated"
-                          : words[r].word == "simulated" ? "violated in simulation"
-                                                         : words[r].word,
+                          results.requirements[r].isViolatedInSimulation     ? "violated in simulation"
+                          : results.requirements[r].word == Decision::partly ? "violated"
+                                                                             : words[r].word,
                           escapeHtml(words[r].name), escapeHtml(sentences[r]));
   const std::string more = unshownRequirements(results);
   return html + "</ul>\n" + (more.empty() ? "" : fmt::format("<p class=\"hint\">{}</p>\n", more));
@@ -290,7 +290,7 @@ std::string ranking(const Results& results, std::size_t output) {
 std::string tone(const Results& results, const Verdict& verdict) {
   if (verdict.word == Agreement::outside || verdict.word == Agreement::unresolved)
     return std::string(wordOf(verdict.word));
-  return results.requirements.empty() ? "plain" : wordOfRequirements(results);
+  return results.requirements.empty() ? "plain" : std::string(wordOf(wordOfRequirements(results)));
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ std::string uncertainTable(const Results& results, std::size_t rows) {
     const Told told(info);
     const auto [lower, upper] = told.of(info.lower, info.upper);
     table.row(info.name, {headingOf(info.quantity, told.unit()), rangeText(lower, upper, digits),
-                          numberText(told.of(info.nominal), digits), shapeText(results, info, "distribution"),
-                          shapeText(results, info, "membership")});
+                          numberText(told.of(info.nominal), digits), shapeText(results, info, ShapeKind::distribution),
+                          shapeText(results, info, ShapeKind::membership)});
   }
   return table.html() + hintOfRows(results.uncertain.size(), rows);
 }

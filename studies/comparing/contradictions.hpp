@@ -2,10 +2,12 @@
 // common. There is no tolerance, but for samples, which may be off by their measured error.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "studies/comparing/relation.hpp"
@@ -14,7 +16,7 @@
 namespace gamut {
 
 struct Contradiction {
-  enum class Of {
+  enum class Of : unsigned char {
     enclosure,
     tube,            ///< over the time since the output time before
     plainIntervals,  ///< of kinematics
@@ -40,6 +42,11 @@ struct Contradiction {
   double otherLower = 0, otherUpper = 0;                 ///< of the second
   bool isSampleOfFirst = false;
 };
+
+template <>
+inline constexpr std::array<std::string_view, 11> words<Contradiction::Of>{
+    "enclosure", "tube",      "plain_intervals", "alpha_cut",   "sample",     "distribution",
+    "mean",      "deviation", "first_index",     "total_index", "requirement"};
 
 struct Contradictions {
   std::vector<Contradiction> found;

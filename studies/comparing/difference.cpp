@@ -51,10 +51,10 @@ Difference compareResults(const Results& first, const Results& second, const Tol
     throw NotComparable("no answer is in both; expected results of studies that compare some of the same");
   difference.excesses = excessesOf(difference.changes, tolerances);
   const std::vector<Contradiction>& found = difference.contradictions.found;
-  difference.word = std::ranges::any_of(found, &Contradiction::isProof) ? "error"
-                    : !found.empty()                                    ? "incompatible"
-                    : !difference.excesses.empty()                      ? "worse"
-                                                                        : "agree";
+  difference.word = std::ranges::any_of(found, &Contradiction::isProof) ? Difference::Word::error
+                    : !found.empty()                                    ? Difference::Word::incompatible
+                    : !difference.excesses.empty()                      ? Difference::Word::worse
+                                                                        : Difference::Word::agree;
   return difference;
 }
 

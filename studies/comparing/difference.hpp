@@ -1,7 +1,9 @@
 // The comparison of two results: whether they contradict each other, and whether the second is worse than is tolerated.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "studies/comparing/changes.hpp"
@@ -14,7 +16,7 @@ namespace gamut {
 
 /// A change for the worse that is beyond what is tolerated.
 struct Excess {
-  enum class Of { enclosure, alphaCuts, overestimation, gap, reached, requirement, verdict, cpu };
+  enum class Of : unsigned char { enclosure, alphaCuts, overestimation, gap, reached, requirement, verdict, cpu };
 
   Of of = Of::enclosure;
   std::string name;            ///< of the output, of the requirement, of the answer; empty otherwise
@@ -23,17 +25,28 @@ struct Excess {
   Both<std::string> words{};   ///< of a requirement and of the verdict
 };
 
+/// As files of tolerances have them.
+template <>
+inline constexpr std::array<std::string_view, 8> words<Excess::Of>{
+    "wider", "alpha_cuts_wider", "overestimation", "gap", "shorter", "requirement", "verdict", "cpu"};
+
 struct Difference {
+  enum class Word : unsigned char {
+    agree,
+    worse,         ///< the second is worse than is tolerated
+    incompatible,  ///< they contradict each other, but of different questions
+    error          ///< both answer the same question, and one of them is wrong
+  };
+
   Shared shared;
   Relation relation;
   Contradictions contradictions;
   Changes changes;
   std::vector<Excess> excesses;
-
-  /// "error": both answer the same question, and one of them is wrong; "incompatible": they contradict each other, but
-  /// of different questions; "worse": the second is worse than is tolerated; "agree": none of these.
-  std::string word;
+  Word word = Word::agree;
 };
+template <>
+inline constexpr std::array<std::string_view, 4> words<Difference::Word>{"agree", "worse", "incompatible", "error"};
 
 /// Throws NotComparable where both have nothing in common, std::invalid_argument as findVerdict does.
 Difference compareResults(const Results& first, const Results& second, const Tolerances& tolerances = {});

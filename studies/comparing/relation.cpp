@@ -187,21 +187,18 @@ void compareValues(const Study& first, const Study& second, Relation& relation) 
   relation.areShared = areShared;
 }
 
-/// Whether the same quantities are uncertain in the same way: `shape` is "distribution" or "membership".
-bool haveSameShapes(const Results& first, const Results& second, const std::string& shape) {
+/// Whether the same quantities are uncertain in the same way.
+bool haveSameShapes(const Results& first, const Results& second, ShapeKind shape) {
   const auto numbersOf = [&](const Results& results, const UncertainInfo& of) {
     std::vector<std::pair<std::string, double>> numbers;
     for (const ShapeInfo& number : results.shapes)
       if (number.quantity == of.name && number.shape == shape) numbers.emplace_back(number.name, number.value);
     return numbers;
   };
-  const auto wordOf = [&](const UncertainInfo& of) {
-    return shape == "distribution" ? of.distribution : of.membership;
-  };
   if (first.uncertain.size() != second.uncertain.size()) return false;
   return std::ranges::all_of(first.uncertain, [&](const UncertainInfo& of) {
     const auto other = std::ranges::find(second.uncertain, of.quantity, &UncertainInfo::quantity);
-    return other != second.uncertain.end() && wordOf(of) == wordOf(*other) &&
+    return other != second.uncertain.end() && of.shape(shape) == other->shape(shape) &&
            numbersOf(first, of) == numbersOf(second, *other);
   });
 }
@@ -252,8 +249,9 @@ Relation relationOf(const Results& first, const Results& second, const Shared& s
     return relation;
   }
   const bool haveSameValues = relation.isFirstInSecond && relation.isSecondInFirst;
-  relation.hasSameDistributions = haveSameValues && dependAlike && haveSameShapes(first, second, "distribution");
-  relation.hasSameMemberships = haveSameValues && haveSameShapes(first, second, "membership");
+  relation.hasSameDistributions =
+      haveSameValues && dependAlike && haveSameShapes(first, second, ShapeKind::distribution);
+  relation.hasSameMemberships = haveSameValues && haveSameShapes(first, second, ShapeKind::membership);
   return relation;
 }
 

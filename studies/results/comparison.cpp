@@ -42,7 +42,7 @@ std::vector<Field> fieldsOfDispute(DisputedSample& d) {
           {"distance", &d.distance, unit::none, "distance outside, in the same unit", {}},
           {"error", &d.error, unit::none, "measured error of the sample, in the same unit", {}},
           {"decided",
-           &d.decided,
+           Choice::of(d.decided),
            unit::none,
            "what decided; \"rounding\": no farther outside than that, as worse ones that were found inside; "
            "\"unresolved\", or \"interrupted\" before the last instance",
@@ -63,9 +63,9 @@ std::vector<Field> fieldsOfDispute(DisputedSample& d) {
 
 }  // namespace
 
-bool isUnresolved(const DisputedSample& sample) { return !sample.outside && sample.decided == "unresolved"; }
-bool isRounding(const DisputedSample& sample) { return !sample.outside && sample.decided == "rounding"; }
-bool isInterrupted(const DisputedSample& sample) { return !sample.outside && sample.decided == "interrupted"; }
+bool isUnresolved(const DisputedSample& sample) { return !sample.outside && sample.decided == Decider::unresolved; }
+bool isRounding(const DisputedSample& sample) { return !sample.outside && sample.decided == Decider::rounding; }
+bool isInterrupted(const DisputedSample& sample) { return !sample.outside && sample.decided == Decider::interrupted; }
 
 void ComparisonResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/comparison", "how the answers agree", *this, fieldsOf));

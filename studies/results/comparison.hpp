@@ -11,6 +11,18 @@
 
 namespace gamut {
 
+/// By what a sample that seemed outside was decided.
+enum class Decider : unsigned char {
+  inDoubles,    ///< a Taylor series
+  in128Bits,    ///< likewise
+  rounding,     ///< it lies outside by no more than that, after worse ones were found inside
+  unresolved,   ///< by nothing
+  interrupted,  ///< before that
+};
+template <>
+inline constexpr std::array<std::string_view, 5> words<Decider>{"Taylor 53 bits", "Taylor 128 bits", "rounding",
+                                                                "unresolved", "interrupted"};
+
 /// A sample that was found outside and looked at again.
 struct DisputedSample {
   std::int64_t number = 0;   ///< of the sample; those without weight follow the others
@@ -19,8 +31,7 @@ struct DisputedSample {
   double value = 0, lower = 0, upper = 0;
   double distance = 0;  ///< outside, after the last integration
   double error = 0;     ///< this sample's measured error; infinite if no second integration came so far
-  std::string decided;  ///< by what: "Taylor 53 bits", "Taylor 128 bits"; "rounding": outside by no more than that,
-                        ///< after worse ones were found inside; "unresolved", or "interrupted" before that
+  Decider decided = Decider::inDoubles;
   bool outside = false;
   std::int64_t level = -1;       ///< of the alpha-cut that it was compared with; -1: the enclosure
   std::vector<double> farthest;  ///< one an output: how far it lies outside at most, after the last integration

@@ -112,7 +112,7 @@ std::vector<Field> fieldsOfUncertain(UncertainInfo& u) {
 std::vector<Field> fieldsOfShape(ShapeInfo& s) {
   return {
       {"of", &s.quantity, unit::none, "name of the uncertain quantity", {}},
-      {"shape", &s.shape, unit::none, "\"distribution\" or \"membership\"", {}},
+      {"shape", Choice::of(s.shape), unit::none, "\"distribution\" or \"membership\"", {}},
       {"name", &s.name, unit::none, "of the number, such as \"lower\" and \"upper\" (of the support), \"mode\"", {}},
       {"value", &s.value, unit::none, "in the unit beside it", {}},
       {"unit", &s.unit, unit::none, "its SI unit", {}}};

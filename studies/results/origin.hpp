@@ -11,6 +11,10 @@
 
 namespace gamut {
 
+enum class ShapeKind : unsigned char { distribution, membership };
+template <>
+inline constexpr std::array<std::string_view, 2> words<ShapeKind>{"distribution", "membership"};
+
 /// One uncertain quantity as the study states it.
 struct UncertainInfo {
   std::string name, quantity, unit;
@@ -20,13 +24,15 @@ struct UncertainInfo {
   /// great; 0 of what varies in time, which has neither.
   double inconsistency = 0;
   std::string told = {};  ///< unit in which people are told of it, as the study states it; empty: the SI unit
+
+  const std::string& shape(ShapeKind kind) const { return kind == ShapeKind::distribution ? distribution : membership; }
 };
 
 /// One of the numbers that a distribution or a membership function is made of.
 struct ShapeInfo {
   std::string quantity;  ///< name of the uncertain quantity
-  std::string shape;     ///< "distribution" or "membership"
-  std::string name;      ///< of the number: "lower", "upper", "mode", …
+  ShapeKind shape = ShapeKind::distribution;
+  std::string name;  ///< of the number: "lower", "upper", "mode", …
   double value = 0;
   std::string unit;
 };

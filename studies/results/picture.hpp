@@ -21,10 +21,15 @@ struct PointInfo {
   bool isGround = false;  ///< the inertial frame carries it
 };
 
+/// In the order of Skeleton::Kind.
+enum class PartKind : unsigned char { rigid, joint, mass, spring };
+template <>
+inline constexpr std::array<std::string_view, 4> words<PartKind>{"rigid", "joint", "mass", "spring"};
+
 /// Between two points, by index.
 struct PartInfo {
   std::string name, type;  ///< as in the study
-  std::string kind;        ///< "rigid", "joint", "mass", "spring"
+  PartKind kind = PartKind::rigid;
   std::uint64_t from = 0, to = 0;
   std::int64_t turns = 0, slides = 0;  ///< of a joint
   double mass = 0;                     ///< nominal, kg

@@ -24,8 +24,10 @@ bool isProvedInPart(const Results& results) {
 
 void takeDisputes(const Watch& watch, const Comparison& found, int level, ComparisonResult& comparison) {
   for (const Dispute& d : found.disputes) {
+    Decider decided = Decider::unresolved;
+    Choice::of(decided).take(d.decided);  // the words are the same
     comparison.disputed.push_back({static_cast<std::int64_t>(d.number), d.time, d.output, d.value, d.lower, d.upper,
-                                   d.distance, d.error, d.decided, d.outside, level, d.farthest});
+                                   d.distance, d.error, decided, d.outside, level, d.farthest});
     if (isInterrupted(comparison.disputed.back())) comparison.why = watch.why();
   }
   comparison.excursion = std::max(comparison.excursion, found.excursion);

@@ -25,9 +25,8 @@ void describeParts(const Study& study, const Skeleton& skeleton, PictureResult& 
     machine.points.push_back({printable(point.name), point.isFixed, point.isGround});
   for (const Skeleton::Part& part : skeleton.parts) {
     const auto told = study.unitsOfMasses.find(part.name);
-    constexpr const char* kinds[] = {"rigid", "joint", "mass", "spring"};
-    machine.parts.push_back({printable(part.name), printable(part.type), kinds[static_cast<std::size_t>(part.kind)],
-                             part.from, part.to, part.turns, part.slides, nominal(part.mass),
+    machine.parts.push_back({printable(part.name), printable(part.type), static_cast<PartKind>(part.kind), part.from,
+                             part.to, part.turns, part.slides, nominal(part.mass),
                              told == study.unitsOfMasses.end() ? std::string() : told->second});
   }
   for (const Skeleton::JointAxis& axis : skeleton.axes) machine.axes.push_back({printable(axis.name), axis.part});

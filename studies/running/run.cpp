@@ -81,12 +81,12 @@ Results withOrigin(const Run& run) {
           std::isfinite(q.rate) ? fmt::format("varies by {:.6g} {} at most", q.rate, own.rateUnit()) : "varies freely";
       continue;
     }
-    const auto add = [&](const char* shape, const std::vector<ShapeNumber>& numbers) {
+    const auto add = [&](ShapeKind shape, const std::vector<ShapeNumber>& numbers) {
       for (const ShapeNumber& n : numbers)
         origin.shapes.push_back({u.name, shape, n.name, n.value, n.isOfQuantity ? q.unit : "1"});
     };
-    add("distribution", u.distribution.numbers());
-    add("membership", u.membership.numbers());
+    add(ShapeKind::distribution, u.distribution.numbers());
+    add(ShapeKind::membership, u.membership.numbers());
     if (u.distribution.isPrecise()) info.inconsistency = inconsistency(u.distribution, u.membership);
   }
   addCost(origin, "equations", run.machine.cpu);

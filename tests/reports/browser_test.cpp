@@ -234,7 +234,7 @@ TEST_F(Browser, MovesTheMachineThroughTime) {
 TEST_F(Browser, ShowsNoNameOverAnother) {
   Results results = example::machine();
   PictureResult& m = results.picture;
-  const auto mass = std::ranges::find(m.parts, "mass", &PartInfo::kind);
+  const auto mass = std::ranges::find(m.parts, PartKind::mass, &PartInfo::kind);
   PartInfo other = *mass;
   other.name = "beside it";
   other.mass = mass->mass / 2;

@@ -137,10 +137,13 @@ Results machine(bool isSpatial, std::size_t seen) {
   m.present = m.places.present = true;
   m.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
   m.points = {{"inertial", true, true}, {"elbow", false, false}, {"tip", false, false}, {"wall", true, true}};
-  m.parts = {{"shoulder", "revolute", "joint", 0, 0, 1, 0, 0},    {"upper", "link", "rigid", 0, 1, 0, 0, 0},
-             {"heavy", "mass", "mass", 1, 1, 0, 0, 2.0},          {"wrist", "revolute", "joint", 1, 1, 1, 0, 0},
-             {"lower", "link", "rigid", 1, 2, 0, 0, 0},           {"light", "mass", "mass", 2, 2, 0, 0, 0.5},
-             {"rubber", "spring-damper", "spring", 3, 2, 0, 0, 0}};
+  m.parts = {{"shoulder", "revolute", PartKind::joint, 0, 0, 1, 0, 0},
+             {"upper", "link", PartKind::rigid, 0, 1, 0, 0, 0},
+             {"heavy", "mass", PartKind::mass, 1, 1, 0, 0, 2.0},
+             {"wrist", "revolute", PartKind::joint, 1, 1, 1, 0, 0},
+             {"lower", "link", PartKind::rigid, 1, 2, 0, 0, 0},
+             {"light", "mass", PartKind::mass, 2, 2, 0, 0, 0.5},
+             {"rubber", "spring-damper", PartKind::spring, 3, 2, 0, 0, 0}};
   m.axes = {{"shoulder.axis", 0}, {"wrist.axis", 3}};
   Places& p = m.places;
   p.sample = {0, 1};

@@ -97,8 +97,8 @@ TEST(OwnShapes, AreSampledBoundedAndCut) {
   const UncertainInfo& quantity = results.uncertain.front();
   EXPECT_EQ(quantity.distribution, "power");
   EXPECT_EQ(quantity.membership, "tent");
-  EXPECT_EQ(shapeText(results, quantity, "distribution"), "power (exponent 3)");
-  EXPECT_THAT(shapeText(results, quantity, "membership"), HasSubstr("tent (on "));
+  EXPECT_EQ(shapeText(results, quantity, ShapeKind::distribution), "power (exponent 3)");
+  EXPECT_THAT(shapeText(results, quantity, ShapeKind::membership), HasSubstr("tent (on "));
   ASSERT_TRUE(results.distribution.present);
   EXPECT_EQ(results.distribution.why, "");
   for (const double excess : results.distribution.excess) EXPECT_LE(excess, results.distribution.band);

@@ -182,7 +182,7 @@ TEST(PlainRequirement, SaysWhatIsSimulatedAndNotProved) {
   EXPECT_EQ(summaryOf(results), "1 of 2 requirements is violated in simulation, not proved; 1 is not decided.");
   const RequirementWords words = wordsOfRequirements(results).front();
   EXPECT_EQ(words.verdict, "violated in simulation, not proved");
-  EXPECT_EQ(wordOfRequirements(results), "open");
+  EXPECT_EQ(wordOfRequirements(results), Decision::open);
 }
 
 TEST(PlainRequirement, SaysHowFarItIsDecidedAndWhatMayHelp) {

@@ -145,7 +145,6 @@ TEST(Report, EscapesEverythingAPersonWrote) {
   results.uncertain[0] = {attack, attack, attack, 1, 2, 3, attack, attack};
   for (OutputInfo& output : results.outputs) output = {attack, attack, attack};
   results.comparison.disputed.push_back({});
-  results.comparison.disputed.back().decided = attack;
   results.comparison.disputed.back().farthest.assign(results.outputs.size(), 0.0);
   const std::string page = renderReport(results);
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));

@@ -34,13 +34,15 @@ TEST(Summary, WritesIntervalsOfParametersAndEvidence) {
                        {"e", "e", "m", 0, 1, 2, "evidence", "triangular"}};
   for (const auto& [name, value] : {std::pair("lower", 0.0), std::pair("upper", 2.0), std::pair("mean", 0.9),
                                     std::pair("mean, at most", 1.1), std::pair("deviation", 0.1)})
-    results.shapes.push_back({"q", "distribution", name, value, "m"});
+    results.shapes.push_back({"q", ShapeKind::distribution, name, value, "m"});
   for (const auto& [name, value] :
        {std::pair("lower", 0.0), std::pair("upper", 2.0), std::pair("lower 1", 0.0), std::pair("upper 1", 1.5),
         std::pair("mass 1", 2.0), std::pair("lower 2", 0.5), std::pair("upper 2", 2.0), std::pair("mass 2", 1.0)})
-    results.shapes.push_back({"e", "distribution", name, value, "m"});
-  EXPECT_EQ(shapeText(results, results.uncertain[0], "distribution"), "normal (mean 0.9 to 1.1, deviation 0.1)");
-  EXPECT_EQ(shapeText(results, results.uncertain[1], "distribution"), "evidence ([0, 1.5] mass 2, [0.5, 2] mass 1)");
+    results.shapes.push_back({"e", ShapeKind::distribution, name, value, "m"});
+  EXPECT_EQ(shapeText(results, results.uncertain[0], ShapeKind::distribution),
+            "normal (mean 0.9 to 1.1, deviation 0.1)");
+  EXPECT_EQ(shapeText(results, results.uncertain[1], ShapeKind::distribution),
+            "evidence ([0, 1.5] mass 2, [0.5, 2] mass 1)");
 }
 
 TEST(Summary, TellsACoreAsTheStudyStatesIt) {
@@ -48,8 +50,8 @@ TEST(Summary, TellsACoreAsTheStudyStatesIt) {
   results.uncertain = {{"q", "q", "m", 0, 1, 2, "uniform", "trapezoidal"}};
   for (const auto& [name, value] :
        {std::pair("lower", 0.0), std::pair("left", 0.9), std::pair("right", 1.1), std::pair("upper", 2.0)})
-    results.shapes.push_back({"q", "membership", name, value, "m"});
-  EXPECT_EQ(shapeText(results, results.uncertain[0], "membership"), "trapezoidal (core 0.9 to 1.1)");
+    results.shapes.push_back({"q", ShapeKind::membership, name, value, "m"});
+  EXPECT_EQ(shapeText(results, results.uncertain[0], ShapeKind::membership), "trapezoidal (core 0.9 to 1.1)");
 }
 
 TEST(JsonSummary, HasTheDocumentedKeys) {
@@ -362,31 +364,31 @@ TEST(InfoText, TellsQuantitiesInTheUnitsThatTheStudyStates) {
   quantity.upper = range.upper();
   quantity.told = "deg";
   quantity.distribution = "normal";
-  results.shapes = {{"first angle", "distribution", "lower", quantity.lower, "rad"},
-                    {"first angle", "distribution", "upper", nearest(parseAmount("136 deg")), "rad"},
-                    {"first angle", "distribution", "mean", quantity.nominal, "rad"},
-                    {"first angle", "distribution", "deviation", nearest(parseAmount("0.5 deg")), "rad"}};
+  results.shapes = {{"first angle", ShapeKind::distribution, "lower", quantity.lower, "rad"},
+                    {"first angle", ShapeKind::distribution, "upper", nearest(parseAmount("136 deg")), "rad"},
+                    {"first angle", ShapeKind::distribution, "mean", quantity.nominal, "rad"},
+                    {"first angle", ShapeKind::distribution, "deviation", nearest(parseAmount("0.5 deg")), "rad"}};
   EXPECT_THAT(infoText(results), HasSubstr(" in [133.65, 136.35] deg, nominal 135, normal (on [133.65, 136], mean 135, "
                                            "deviation 0.5), triangular\n"));
   quantity.unit = "kg";
   quantity.told = "g";
   quantity.distribution = "lognormal";
-  results.shapes = {{"first angle", "distribution", "log_mean", -2, "1"},
-                    {"first angle", "distribution", "log_deviation", 0.1, "1"}};
-  EXPECT_EQ(shapeText(results, quantity, "distribution"),
+  results.shapes = {{"first angle", ShapeKind::distribution, "log_mean", -2, "1"},
+                    {"first angle", ShapeKind::distribution, "log_deviation", 0.1, "1"}};
+  EXPECT_EQ(shapeText(results, quantity, ShapeKind::distribution),
             "lognormal (log_mean (of the number in kg) -2, log_deviation 0.1)");
 }
 
 TEST(InfoText, TellsTheNumbersOfDistributionsAndMembershipFunctions) {
   Results results = sampleResults();
   results.uncertain[0].distribution = "normal";
-  results.shapes = {{"first angle", "distribution", "lower", results.uncertain[0].lower, "rad"},
-                    {"first angle", "distribution", "upper", results.uncertain[0].upper, "rad"},
-                    {"first angle", "distribution", "mean", 1.0, "rad"},
-                    {"first angle", "distribution", "deviation", 0.05, "rad"},
-                    {"first angle", "distribution", "cut_off", 0.00766076, "1"},
-                    {"first angle", "membership", "lower", 0.95, "rad"},
-                    {"first angle", "membership", "apex", 1.0, "rad"}};
+  results.shapes = {{"first angle", ShapeKind::distribution, "lower", results.uncertain[0].lower, "rad"},
+                    {"first angle", ShapeKind::distribution, "upper", results.uncertain[0].upper, "rad"},
+                    {"first angle", ShapeKind::distribution, "mean", 1.0, "rad"},
+                    {"first angle", ShapeKind::distribution, "deviation", 0.05, "rad"},
+                    {"first angle", ShapeKind::distribution, "cut_off", 0.00766076, "1"},
+                    {"first angle", ShapeKind::membership, "lower", 0.95, "rad"},
+                    {"first angle", ShapeKind::membership, "apex", 1.0, "rad"}};
   EXPECT_THAT(infoText(results),
               HasSubstr(", normal (mean 1, deviation 0.05, 0.766 % cut off), triangular (on [0.95, 1.1], apex 1)\n"));
 }

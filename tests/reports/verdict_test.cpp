@@ -59,7 +59,7 @@ void leave(Results& results, double distance) {
 }
 
 /// Adds a sample that was disputed at that point.
-DisputedSample& dispute(Results& results, double distance, const std::string& decided) {
+DisputedSample& dispute(Results& results, double distance, Decider decided) {
   DisputedSample& sample = results.comparison.disputed.emplace_back();
   sample.number = 17;
   sample.time = 40;
@@ -123,86 +123,86 @@ const Case cases[] = {
        leave(r, 1);
      },
      Agreement::incomplete},
-    {"DisputedAndOutside", [](Results& r) { dispute(r, 1e-6, "Taylor 53 bits").outside = true; }, Agreement::outside},
+    {"DisputedAndOutside", [](Results& r) { dispute(r, 1e-6, Decider::inDoubles).outside = true; }, Agreement::outside},
     {"DisputedAndUnresolved",
      [](Results& r) {
        leave(r, 1e-6);
-       dispute(r, 1e-6, "unresolved");
+       dispute(r, 1e-6, Decider::unresolved);
      },
      Agreement::unresolved},
-    {"DisputedAndSettledInside", [](Results& r) { dispute(r, 0, "Taylor 53 bits"); }, Agreement::inside},
+    {"DisputedAndSettledInside", [](Results& r) { dispute(r, 0, Decider::inDoubles); }, Agreement::inside},
     {"DisputedAndSettledInsideButStoredOutside",
      [](Results& r) {
        leave(r, 1e-6);
-       dispute(r, 1e-6, "Taylor 53 bits");
+       dispute(r, 1e-6, Decider::inDoubles);
      },
      Agreement::outside},
     {"DisputedAndInterrupted",
      [](Results& r) {
        leave(r, 1e-6);
-       dispute(r, 1e-6, "interrupted");
+       dispute(r, 1e-6, Decider::interrupted);
      },
      Agreement::incomplete},
     {"OutsideByRounding",
      [](Results& r) {
        leave(r, 1e-6);
-       dispute(r, 1e-6, "rounding");
+       dispute(r, 1e-6, Decider::rounding);
      },
      Agreement::inside},
     {"RoundingExcusesNoMore",
      [](Results& r) {
        leave(r, 2e-6);
-       dispute(r, 1e-6, "rounding");
+       dispute(r, 1e-6, Decider::rounding);
      },
      Agreement::outside},
     {"AnUnresolvedSampleExcusesNoOtherOutput",
      [](Results& r) {
        r.stochastic.envelope.upper(40, 0) = r.interval.at.upper(40, 0) + 1e-6;
-       dispute(r, 1e-3, "unresolved");
+       dispute(r, 1e-3, Decider::unresolved);
      },
      Agreement::outside},
     {"AnInterruptedSampleExcusesNoOtherOutput",
      [](Results& r) {
        r.stochastic.envelope.upper(40, 0) = r.interval.at.upper(40, 0) + 1e-6;
-       dispute(r, 1e-3, "interrupted");
+       dispute(r, 1e-3, Decider::interrupted);
      },
      Agreement::outside},
     {"AnInterruptedSampleMayLieOutsideInEveryOutput",
      [](Results& r) {
        leave(r, 1e-6);
        r.stochastic.envelope.upper(41, 0) = r.interval.at.upper(41, 0) + 2e-6;
-       dispute(r, 1e-6, "interrupted").farthest = {2e-6, 1e-6};
+       dispute(r, 1e-6, Decider::interrupted).farthest = {2e-6, 1e-6};
      },
      Agreement::incomplete},
     {"AnUnresolvedSampleMayLieOutsideInEveryOutput",
      [](Results& r) {
        leave(r, 1e-6);
        r.stochastic.envelope.upper(41, 0) = r.interval.at.upper(41, 0) + 2e-6;
-       dispute(r, 1e-6, "unresolved").farthest = {2e-6, 1e-6};
+       dispute(r, 1e-6, Decider::unresolved).farthest = {2e-6, 1e-6};
      },
      Agreement::unresolved},
     {"AnInterruptedSampleExcusesNoMoreThanItsDistance",
      [](Results& r) {
        leave(r, 1e-6);
-       dispute(r, 0.9e-6, "interrupted");
+       dispute(r, 0.9e-6, Decider::interrupted);
      },
      Agreement::outside},
     {"AnUnresolvedSampleExcusesNoMoreThanItsDistance",
      [](Results& r) {
        leave(r, 1e-6);
-       dispute(r, 0.9e-6, "unresolved");
+       dispute(r, 0.9e-6, Decider::unresolved);
      },
      Agreement::outside},
     {"InterruptedBeforeAnAlphaCut",
      [](Results& r) {
        r.fuzzy.inner[2].upper(40, 1) = r.fuzzy.outer[2].upper(40, 1) + 1e-9;
-       dispute(r, 1.1e-9, "interrupted").level = 2;
+       dispute(r, 1.1e-9, Decider::interrupted).level = 2;
      },
      Agreement::incomplete},
     {"InterruptedBeforeAnotherAlphaCut",
      [](Results& r) {
        r.fuzzy.inner[2].upper(40, 1) = r.fuzzy.outer[2].upper(40, 1) + 1e-9;
-       dispute(r, 1.1e-9, "interrupted").level = 3;
+       dispute(r, 1.1e-9, Decider::interrupted).level = 3;
      },
      Agreement::outside},
     {"SamplingStopped",
@@ -368,7 +368,7 @@ TEST(Verdict, NamesOutputTimeAndDistanceOfTheFarthestExcursion) {
 
 TEST(Verdict, NamesTheBoundThatADisputedSampleLeft) {
   Results results = example::pendulum();
-  DisputedSample& sample = dispute(results, 1e-6, "Taylor 53 bits");
+  DisputedSample& sample = dispute(results, 1e-6, Decider::inDoubles);
   sample.outside = true;
   EXPECT_THAT(judge(results).sentence, HasSubstr("outside the enclosure"));
   sample.level = 2;
@@ -390,7 +390,7 @@ TEST(Verdict, SaysSoWhereTheStoredWordDisagreesAndTheFindingWins) {
 
 TEST(Verdict, NamesEveryUnresolvedSample) {
   Results results = example::pendulum();
-  dispute(results, 1e-6, "unresolved");
+  dispute(results, 1e-6, Decider::unresolved);
   EXPECT_THAT(judge(results).notes,
               Contains(AllOf(HasSubstr("Sample 17 (elbow angle at 2 s)"), HasSubstr("1e-06 rad"))));
 }
@@ -400,7 +400,7 @@ TEST(Verdict, NamesCornersAndTheCentreAsSuch) {
   results.stochastic.alphaCorners = 18;
   results.stochastic.integrated = results.stochastic.planned();
   for (const std::int64_t number : {4095, 4096, 4098, 4115, 4116})
-    dispute(results, 1e-6, "interrupted").number = number;
+    dispute(results, 1e-6, Decider::interrupted).number = number;
   EXPECT_THAT(judge(results).notes,
               ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 0 ("), StartsWith("Alpha-corner 0 ("),
                           StartsWith("Alpha-corner 17 ("), StartsWith("The centre (")));
@@ -460,7 +460,7 @@ TEST(Verdict, OfARunThatEndedAtTheStartNamesNoSamples) {
   Results results = example::pendulum();
   results.interval.reached = 0;
   results.interval.why = "the run was interrupted";
-  dispute(results, 1e-6, "interrupted");
+  dispute(results, 1e-6, Decider::interrupted);
   results.comparison.verdict = Agreement::incomplete;
   const Verdict verdict = judge(results);
   EXPECT_THAT(verdict.sentence,
@@ -493,11 +493,11 @@ TEST(Verdict, AsksForUnitsWhereALimitLetHardlyAnyMotionThrough) {
 TEST(Verdict, CountsTheSettledSamplesInOneLineAndNamesTheNearestBesides) {
   Results results = example::pendulum();
   for (int i = 0; i < 200; ++i) {  // of two bounds each
-    DisputedSample& sample = dispute(results, 0, "Taylor 53 bits");
+    DisputedSample& sample = dispute(results, 0, Decider::inDoubles);
     sample.number = i / 2;
     sample.value = sample.upper - (i == 187 ? 1e-6 : 2e-6);
   }
-  dispute(results, 1e-6, "unresolved");
+  dispute(results, 1e-6, Decider::unresolved);
   const Verdict verdict = judge(results);
   ASSERT_EQ(verdict.notes.size(), 2U);
   EXPECT_THAT(verdict.notes.front(), HasSubstr("could not be decided"));
@@ -513,24 +513,25 @@ TEST(Verdict, CountsTheSettledSamplesInOneLineAndNamesTheNearestBesides) {
           "The results name them all, in /comparison/disputed."));
   Results different = example::pendulum();
   for (int i = 0; i < 30; ++i) {
-    DisputedSample& sample = dispute(different, 0, "Taylor 53 bits");
+    DisputedSample& sample = dispute(different, 0, Decider::inDoubles);
     sample.number = i;
     sample.value = sample.upper - 1e-6 * (i + 1);
   }
   EXPECT_EQ(judge(different).settled.size(), 21U);
   Results other = example::pendulum();
-  dispute(other, 1e-6, "Taylor 53 bits");
+  dispute(other, 1e-6, Decider::inDoubles);
   EXPECT_THAT(judge(other).notes,
               ElementsAre("1 sample on the boundary was integrated again, more accurately: it lies inside."));
   EXPECT_EQ(judge(other).settled.size(), 1U);
-  dispute(other, 1e-9, "rounding").number = 18;
+  dispute(other, 1e-9, Decider::rounding).number = 18;
   EXPECT_THAT(judge(other).notes, ElementsAre(HasSubstr("it lies inside; 1 more outside by no more than rounding.")));
 }
 
 TEST(Verdict, NamesTheWorstOfManyThatLieOutsideOrCouldNotBeDecidedAndCountsTheOthers) {
   Results results = example::pendulum();
   for (int i = 0; i < 300; ++i) {
-    DisputedSample& sample = dispute(results, i == 200 ? 4e-6 : 2e-6, i < 150 ? "Taylor 53 bits" : "unresolved");
+    DisputedSample& sample =
+        dispute(results, i == 200 ? 4e-6 : 2e-6, i < 150 ? Decider::inDoubles : Decider::unresolved);
     sample.number = i;
     sample.error = i == 100 ? 1e-9 : 1e-8;
     sample.outside = i < 150;
@@ -599,7 +600,7 @@ TEST(Verdict, CountsOnlyTheSamplesThatWereTaken) {
 
 TEST(Verdict, SaysWhyADisputeWasNotDecided) {
   Results results = example::pendulum();
-  dispute(results, 1e-6, "interrupted");
+  dispute(results, 1e-6, Decider::interrupted);
   results.comparison.why = "the time limit of 9 s CPU for the whole run was reached";
   const Verdict verdict = judge(results);
   EXPECT_THAT(verdict.sentence,
@@ -631,13 +632,13 @@ TEST(Verdict, RefusesGridsWhoseShapeDoesNotFit) {
 
 TEST(Verdict, RefusesADisputedSampleWithoutADistanceForEachOutput) {
   Results results = example::pendulum();
-  dispute(results, 0, "Taylor 53 bits").farthest.pop_back();
+  dispute(results, 0, Decider::inDoubles).farthest.pop_back();
   EXPECT_THROW(judge(results), std::invalid_argument);
 }
 
 TEST(Verdict, RefusesADisputedSampleOfAnOutputThatIsNotThere) {
   Results results = example::pendulum();
-  dispute(results, 0, "Taylor 53 bits").output = results.outputs.size();
+  dispute(results, 0, Decider::inDoubles).output = results.outputs.size();
   EXPECT_THROW(judge(results), std::invalid_argument);
 }
 

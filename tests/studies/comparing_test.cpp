@@ -46,9 +46,9 @@ TEST_P(DifferenceOf, IsTheWordExpectedInBothOrders) {
   const Results first = sound();
   Results second = first;
   GetParam().change(second);
-  EXPECT_EQ(compareResults(first, second).word, GetParam().word);
+  EXPECT_EQ(wordOf(compareResults(first, second).word), GetParam().word);
   if (GetParam().word != "worse") {
-    EXPECT_EQ(compareResults(second, first).word, GetParam().word);
+    EXPECT_EQ(wordOf(compareResults(second, first).word), GetParam().word);
   }
 }
 
@@ -153,7 +153,7 @@ TEST(Difference, KeepsSamplesThatTheirOwnRunDoubtsFromBeingAProof) {
   const Results first = sound();
   Results second = first;
   leave(second, 0.1);
-  second.comparison.disputed = {{17, 1, 0, 11.2, 10.1, 11.1, 0.1, 1e-9, "unresolved", false, -1, {0.2, 0}}};
+  second.comparison.disputed = {{17, 1, 0, 11.2, 10.1, 11.1, 0.1, 1e-9, Decider::unresolved, false, -1, {0.2, 0}}};
   const Difference difference = compareResults(first, second);
   EXPECT_THAT(difference.contradictions.found, IsEmpty());
   EXPECT_EQ(difference.contradictions.undecided.size(), 1U);
@@ -297,7 +297,7 @@ TEST(RelationOfStudies, IsNotAssumedOfAStudyThatCannotBeRead) {
   EXPECT_FALSE(relation.isSameMotion || relation.areShared);
   EXPECT_NE(relation.why, "");
   move(second.interval.at, 100);
-  EXPECT_EQ(compareResults(first, second).word, "incompatible");
+  EXPECT_EQ(compareResults(first, second).word, Difference::Word::incompatible);
 }
 
 }  // namespace

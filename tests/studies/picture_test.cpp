@@ -35,9 +35,9 @@ TEST(SeenMachine, NamesPointsAndParts) {
   EXPECT_TRUE(machine.points[0].isFixed);
   EXPECT_EQ(machine.points[1].name, "tip");
   ASSERT_EQ(machine.parts.size(), 3u);
-  EXPECT_EQ(machine.parts[0].kind, "joint");
-  EXPECT_EQ(machine.parts[1].kind, "rigid");
-  EXPECT_EQ(machine.parts[2].kind, "mass");
+  EXPECT_EQ(machine.parts[0].kind, PartKind::joint);
+  EXPECT_EQ(machine.parts[1].kind, PartKind::rigid);
+  EXPECT_EQ(machine.parts[2].kind, PartKind::mass);
   EXPECT_EQ(machine.parts[2].mass, 0.25);
   EXPECT_EQ(machine.parts[2].told, "g");
   ASSERT_EQ(machine.axes.size(), 1u);

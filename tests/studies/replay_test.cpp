@@ -186,7 +186,7 @@ TEST(Replay, OfADisputedSampleGivesWhatSettledIt) {
   for (const DisputedSample& disputed : results.comparison.disputed) last[disputed.number] = disputed;
   for (const auto& [number, disputed] : last) {
     const ReplayedSample sample = replay(machine, results, static_cast<std::size_t>(number));
-    EXPECT_EQ(sample.decided, disputed.decided);
+    EXPECT_EQ(sample.decided, wordOf(disputed.decided));
     EXPECT_EQ(sample.trajectory(disputed.time, disputed.output), disputed.value);
   }
 }

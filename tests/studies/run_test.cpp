@@ -137,7 +137,7 @@ TEST(Run, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
   EXPECT_EQ(comparison.verdict, Agreement::incomplete);
   EXPECT_EQ(comparison.excursion, 0);
   EXPECT_THAT(comparison.disputed, Not(IsEmpty()));
-  EXPECT_THAT(comparison.disputed, Each(Field(&DisputedSample::decided, "interrupted")));
+  EXPECT_THAT(comparison.disputed, Each(Field(&DisputedSample::decided, Decider::interrupted)));
 }
 
 TEST(Run, ComparesAFirstBlockOfSamplesWithAnEnclosureThatIsInterrupted) {
@@ -224,7 +224,8 @@ TEST(Run, KeepsTheNumbersOfDistributionsAndMembershipFunctions) {
                      "membership = { type = \"table\", points = [[\"29.8 deg\", 0.5], [\"30 deg\", 1]] }"));
   std::vector<std::string> found;
   for (const ShapeInfo& s : results.shapes)
-    found.push_back(s.quantity + " " + s.shape + " " + s.name + " " + std::to_string(s.value) + " " + s.unit);
+    found.push_back(s.quantity + " " + std::string(wordOf(s.shape)) + " " + s.name + " " + std::to_string(s.value) +
+                    " " + s.unit);
   EXPECT_THAT(
       found, ::testing::ElementsAre("start distribution lower 0.518363 rad", "start distribution upper 0.528835 rad",
                                     "start distribution mean 0.523599 rad", "start distribution deviation 0.001745 rad",

@@ -40,7 +40,8 @@ inline Results sampleResults() {
   r.extensions = {{256, "9.8.8", "elsewhere", "2024-03-01T12:00:00Z", 2.5, 60, 1e9}};
   r.uncertain = {{"first angle", "shoulder.angle", "rad", 0.9, 1.0, 1.1, "uniform", "triangular"}};
   r.uncertain[0].inconsistency = 0.001;
-  r.shapes = {{"first angle", "distribution", "lower", 0.9, "rad"}, {"first angle", "membership", "apex", 1.0, "rad"}};
+  r.shapes = {{"first angle", ShapeKind::distribution, "lower", 0.9, "rad"},
+              {"first angle", ShapeKind::membership, "apex", 1.0, "rad"}};
   r.outputs = {{"tip height", "tip.position.z", "m"}, {"energy", "energy", "J"}};
   r.horizon = 0.02;
   r.time = {0, 0.01, 0.02};
@@ -108,8 +109,8 @@ inline Results sampleResults() {
   r.comparison.maximum = 13;
   r.comparison.median = 2.5;
   r.comparison.maximumOf = {12, nan};
-  r.comparison.disputed = {{17, 1, 0, 0.09, 0.1, 1.1, 0.01, 1e-9, "Taylor 53 bits", true, 2, {0.01, 0.25}},
-                           {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, "unresolved", false, -1, {0, 0}}};
+  r.comparison.disputed = {{17, 1, 0, 0.09, 0.1, 1.1, 0.01, 1e-9, Decider::inDoubles, true, 2, {0.01, 0.25}},
+                           {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, Decider::unresolved, false, -1, {0, 0}}};
   r.margins = {{0, "tip.position.z", true, "0.5 m", "m", false, 0, 0, true},
                {1, "energy", true, "0 J", "J", true, 1, 0, true}};
   r.requirements.resize(2);
@@ -208,9 +209,9 @@ inline Results sampleResults() {
   r.picture.why = "the enclosure became wider than 1e6";
   r.picture.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
   r.picture.points = {{"inertial", true, true}, {"tip", false, false}};
-  r.picture.parts = {{"hinge", "revolute", "joint", 0, 0, 1, 0, 0},
-                     {"rod", "link", "rigid", 0, 1, 0, 0, 0},
-                     {"bob", "mass", "mass", 1, 1, 0, 0, 0.25}};
+  r.picture.parts = {{"hinge", "revolute", PartKind::joint, 0, 0, 1, 0, 0},
+                     {"rod", "link", PartKind::rigid, 0, 1, 0, 0, 0},
+                     {"bob", "mass", PartKind::mass, 1, 1, 0, 0, 0.25}};
   r.picture.axes = {{"hinge.axis", 0}};
   r.picture.places = {true,
                       {0, 0.02},
