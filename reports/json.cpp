@@ -9,8 +9,8 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,46 +52,147 @@ Json overestimationObject(const Results& results) {
   return {{"max", number(comparison.maximum)}, {"median", number(comparison.median)}, {"outputs", outputs}};
 }
 
-/// Of what is only sampled; null where nothing needs it.
-Json estimateObject(const RequirementEstimate& estimate) {
-  if (estimate.samples == 0) return nullptr;
-  return {{"samples", estimate.samples},
-          {"met", estimate.met},
-          {"violated", estimate.violated},
-          {"confidence", Json::array({number(estimate.lower), number(estimate.upper)})},
-          {"first_order", number(estimate.firstOrder)}};
+/// A number, a text or a count.
+Json valueOf(const FieldValue& value) {
+  return std::visit(Visitor{[](double* x) { return number(*x); }, [](std::int64_t* x) { return Json(*x); },
+                            [](std::uint64_t* x) { return Json(*x); }, [](bool* x) { return Json(*x); },
+                            [](std::string* x) { return textOrNull(*x); }, [](Choice x) { return Json(x.word()); },
+                            [](const auto&) { return Json(nullptr); }},
+                    value);
 }
 
-Json requirementsArray(const Results& results) {
-  Json array = Json::array();
-  for (const RequirementResult& r : results.requirements) {
-    Json violation = nullptr;
-    for (std::size_t q = 0; q < r.violation.size(); ++q)
-      if (!std::isnan(r.violation[q])) violation[results.uncertain[q].name] = r.violation[q];
-    Json simulated = nullptr;
-    if (r.isViolatedInSimulation)
-      simulated = {{"sample", r.worstSample}, {"margin", r.worstMargin}, {"time", number(r.worstTime)}};
-    array.push_back(
-        {{"name", r.name},
-         {"statement", r.statement},
-         {"from", r.from},
-         {"until", r.until},
-         {"guaranteed", wordOf(r.word)},
-         {"why", textOrNull(r.why)},
-         {"advice", textOrNull(r.advice)},
-         {"met_until", number(r.metUntil)},
-         {"met", r.met},
-         {"violated", r.violated},
-         {"factor", r.factor},
-         {"violation", violation},
-         {"probability", Json::array({r.probabilityLower, r.probabilityUpper})},
-         {"samples", r.samples},
-         {"violating", r.violating},
-         {"confidence", std::isnan(r.shareLower) ? Json(nullptr) : Json::array({r.shareLower, r.shareUpper})},
-         {"estimate", estimateObject(r.estimate)},
-         {"simulated_violation", simulated},
-         {"worst_sample", r.worstSample < 0 ? Json(nullptr) : Json(r.worstSample)},
-         {"violation_possibility", Json::array({r.violationLeast, r.violationMost})}});
+/// The numbers of a field, one after the other, and what its keys end in.
+std::vector<std::pair<std::vector<double>, std::string>> numbersOf(const Field& field) {
+  if (const auto* values = std::get_if<std::vector<double>*>(&field.value)) return {{**values, ""}};
+  if (const auto* table = std::get_if<Table*>(&field.value)) return {{(*table)->data, ""}};
+  if (const auto* bounds = std::get_if<Envelope*>(&field.value))
+    return {{(*bounds)->lower.data, "/0"}, {(*bounds)->upper.data, "/1"}};
+  std::vector<double> all;
+  if (const auto* tables = std::get_if<std::vector<Table>*>(&field.value))
+    for (const Table& table : **tables) all.insert(all.end(), table.data.begin(), table.data.end());
+  return {{all, ""}};
+}
+
+/// The keys to a field, by its name or that which both ends of bounds have; empty of what is told nowhere.
+std::string keysOf(const Group& group, const Field& field) {
+  std::string_view name = field.name == "lower" ? "bounds_lower" : field.name == "upper" ? "bounds_upper" : field.name;
+  if (const auto found = group.inJson.find(field.name); found != group.inJson.end()) return std::string(found->second);
+  if (name == "stopped") return {};  // that is said of the run
+  const std::string end = name.ends_with("_lower") ? "/0" : name.ends_with("_upper") ? "/1" : "";
+  if (!end.empty()) name.remove_suffix(6);
+  const auto found = group.inJson.find(name);
+  return std::string(end.empty() || found == group.inJson.end() ? name : found->second) + end;
+}
+
+/// Where the keys lead to; '*' is the label.
+Json& placeOf(Json& object, std::string_view keys, const std::string& label = "") {
+  const std::string key(keys.substr(0, keys.find('/')));
+  if (keys.empty()) return object;
+  Json& place = key == "0"   ? object[std::size_t{0}]
+                : key == "1" ? object[std::size_t{1}]
+                             : object[key == "*" ? label : key];
+  return placeOf(place, keys.substr(std::min(keys.size(), key.size() + 1)), label);
+}
+
+/// What records of the results say, as they describe themselves.
+class Teller {
+ public:
+  /// Whether what is said of an output, at a place in the first dimension, is told.
+  using IsTold = std::function<bool(std::size_t, std::size_t)>;
+
+  explicit Teller(const Results& results)
+      : results_(results), groups_(describe(results)), extents_(extentsOf(groups_)) {
+    for (const Group& group : groups_)
+      for (const Field& field : group.isList() || group.size == 0 ? std::vector<Field>() : group.fields(0))
+        if (const auto* scale = std::get_if<std::vector<double>*>(&field.value); scale && isScale(group, field))
+          scales_[pathOf(group, field)] = *scale;
+  }
+
+  /// All that is single, and numbers of outputs: by time where it is said which are told, otherwise at the last one.
+  Json record(std::string_view path, const IsTold& isTold = {}, std::size_t i = 0) const {
+    const Group& group = *std::ranges::find(groups_, path, &Group::path);
+    Json object = Json::object(), outputs = Json::object();
+    double reached = 0;
+    for (const Field& field : group.fields(i)) {
+      if (field.name == "reached") reached = *std::get<double*>(field.value);
+      if (const std::string keys = keysOf(group, field); keys.empty())
+        continue;
+      else if (group.isList() || !isScale(group, field))
+        tell(object, outputs, field, keys, reached, isTold);
+      else if (const auto scale = scales_.find(pathOf(group, field)); scale != scales_.end() && !isTold)
+        object[keys] = scale->second->empty() ? Json(nullptr) : number(scale->second->back());
+    }
+    if (!group.isList()) object["outputs"] = std::move(outputs);
+    return object;
+  }
+
+  Json list(std::string_view path) const {
+    Json array = Json::array();
+    for (std::size_t i = 0; i < std::ranges::find(groups_, path, &Group::path)->size; ++i)
+      array.push_back(record(path, {}, i));
+    return array;
+  }
+
+  /// How many output times lie up to this one (s); the first always.
+  std::size_t timesUntil(double reached) const {
+    const auto end = std::ranges::upper_bound(results_.time, reached);
+    return std::max<std::size_t>(static_cast<std::size_t>(end - results_.time.begin()), 1);
+  }
+
+ private:
+  void tell(Json& object, Json& outputs, const Field& field, const std::string& keys, double reached,
+            const IsTold& isTold) const {
+    const std::vector<std::string_view>& dimensions = field.dimensions;
+    if (dimensions.empty()) placeOf(object, keys) = valueOf(field.value);
+    const std::vector<std::size_t> shape = shapeOf(dimensions, extents_);
+    const std::size_t count = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+    for (const auto& [numbers, end] : numbersOf(field))
+      for (std::size_t i = 0; i < count && !shape.empty(); ++i) {
+        std::size_t rest = i, at = 0, output = 0;
+        const std::string* quantity = nullptr;
+        const double *time = nullptr, *other = nullptr;
+        bool isLast = true, isOfOutput = false;
+        for (std::size_t d = shape.size(); d-- > 0; rest /= shape[d]) {
+          at = rest % shape[d];
+          if (dimensions[d] == dimension::output) {
+            isOfOutput = true;
+            output = at;
+          } else if (dimensions[d] == dimension::quantity) {
+            quantity = &results_.uncertain[at].name;
+          } else if (dimensions[d].ends_with("/time")) {
+            isLast = at + 1 == (dimensions[d] == dimension::time ? timesUntil(reached) : shape[d]);
+            time = &scales_.find(dimensions[d])->second->at(at);
+          } else {
+            other = &scales_.find(dimensions[d])->second->at(at);
+          }
+        }
+        if (!(isTold ? isTold(at, output) : isLast)) continue;
+        Json* place = isOfOutput ? &outputs[results_.outputs[output].name] : &object;
+        if (isTold && time != nullptr) place = &(*place)[fmt::format("{}", *time)];
+        const std::string label = quantity != nullptr ? *quantity : other != nullptr ? fmt::format("{}", *other) : "";
+        placeOf(*place, keys + end, label) = i < numbers.size() ? number(numbers[i]) : Json(nullptr);
+      }
+  }
+
+  const Results& results_;
+  const std::vector<Group> groups_;
+  const Extents extents_;
+  std::map<std::string, const std::vector<double>*, std::less<>> scales_;
+};
+
+Json requirementsArray(const Results& results, const Teller& teller) {
+  Json array = teller.list("/requirements");
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const RequirementResult& r = results.requirements[i];
+    Json &of = array[i], violation = nullptr;
+    for (const auto& [quantity, value] : of["violation"].items())
+      if (!value.is_null()) violation[quantity] = value;
+    of["violation"] = violation;
+    if (std::isnan(r.shareLower)) of["confidence"] = nullptr;
+    if (r.estimate.samples == 0) of["estimate"] = nullptr;
+    if (r.worstSample < 0) of["worst_sample"] = nullptr;
+    of["simulated_violation"]["sample"] = r.worstSample;
+    if (!r.isViolatedInSimulation) of["simulated_violation"] = nullptr;
   }
   return array;
 }
@@ -106,193 +207,79 @@ Json quantileOf(const DistributionResult& d, std::size_t begin, double p) {
   return bounds;
 }
 
-Json distributionObject(const Results& results) {
+Json distributionObject(const Results& results, const Teller& teller) {
   const DistributionResult& d = results.distribution;
   if (!d.present) return nullptr;
-  Json outputs = Json::object();
-  for (std::size_t k = 0; k < results.outputs.size(); ++k)
-    for (std::size_t at = 0; at < d.time.size(); ++at) {
-      const std::size_t cell = at * results.outputs.size() + k;
-      if (d.gaps.empty() || std::isnan(d.gaps[cell])) continue;
-      Json quantiles = Json::object();
+  const std::size_t outputs = results.outputs.size();
+  const auto isKnown = [&](std::size_t at, std::size_t k) {
+    return !d.gaps.empty() && !std::isnan(d.gaps[at * outputs + k]);
+  };
+  Json object = teller.record("/distribution", isKnown);
+  for (std::size_t at = 0; at < d.time.size(); ++at)
+    for (std::size_t k = 0; k < outputs; ++k)
       for (const double p : {0.01, 0.05, 0.5, 0.95, 0.99})
-        quantiles[fmt::format("{}", p)] = quantileOf(d, d.begin(at, k, results.outputs.size()), p);
-      outputs[results.outputs[k].name][fmt::format("{}", d.time[at])] = {
-          {"gap", d.gaps[cell]}, {"excess", number(d.excess[cell])}, {"quantiles", quantiles}};
-    }
-  return {{"wanted", d.wanted},
-          {"gap", d.gap},
-          {"why", textOrNull(d.why)},
-          {"band", d.band > 0 ? Json(d.band) : Json(nullptr)},
-          {"cpu", d.cpu},
-          {"outputs", outputs}};
-}
-
-/// A number, a text or a count.
-Json valueOf(const FieldValue& value) {
-  return std::visit(Visitor{[](double* x) { return number(*x); }, [](std::int64_t* x) { return Json(*x); },
-                            [](std::uint64_t* x) { return Json(*x); }, [](bool* x) { return Json(*x); },
-                            [](std::string* x) { return textOrNull(*x); }, [](Choice x) { return Json(x.word()); },
-                            [](const auto&) { return Json(nullptr); }},
-                    value);
-}
-
-/// The numbers of a field, and which end of bounds they are, 0 or 1; -1: neither.
-std::vector<std::pair<std::span<const double>, int>> numbersOf(const Field& field) {
-  const int end = field.name.ends_with("lower") ? 0 : field.name.ends_with("upper") ? 1 : -1;
-  if (const auto* values = std::get_if<std::vector<double>*>(&field.value)) return {{**values, end}};
-  if (const auto* table = std::get_if<Table*>(&field.value)) return {{(*table)->data, end}};
-  if (const auto* bounds = std::get_if<Envelope*>(&field.value))
-    return {{(*bounds)->lower.data, 0}, {(*bounds)->upper.data, 1}};
-  return {};
-}
-
-/// So many times of each dimension of times, by its path.
-using Reached = std::map<std::string, std::size_t, std::less<>>;
-
-/// Adds what a field says of each output, and of each quantity if it does, at the last of its times: {output name →
-/// [quantity →] name → number or [lower, upper]}; what is called "lower" or "upper" alone by the name `ofBounds`.
-void addOutputs(Json& outputs, const Results& results, const Field& field, const Reached& reached,
-                const std::string& ofBounds) {
-  std::vector<std::string_view> dimensions = field.dimensions;
-  const auto times = reached.find(dimensions.front());
-  if (times != reached.end()) dimensions.erase(dimensions.begin());
-  const bool isOfQuantity = dimensions.size() == 2 && dimensions[1] == dimension::quantity;
-  if (dimensions.empty() || dimensions[0] != dimension::output || dimensions.size() != (isOfQuantity ? 2 : 1)) return;
-  if (times != reached.end() && times->second == 0) return;
-  const std::size_t quantities = isOfQuantity ? results.uncertain.size() : 1;
-  const std::size_t count = results.outputs.size() * quantities;
-  const std::size_t begin = times == reached.end() ? 0 : (times->second - 1) * count;
-  for (const auto& [numbers, end] : numbersOf(field)) {
-    std::string name(field.name);
-    if (name.ends_with("lower") || name.ends_with("upper"))
-      name.resize(name.size() - std::min<std::size_t>(6, name.size()));
-    if (name.empty()) name = ofBounds;
-    for (std::size_t i = 0; i < count && begin + i < numbers.size(); ++i) {
-      Json* place = &outputs[results.outputs[i / quantities].name];
-      if (isOfQuantity) place = &(*place)[results.uncertain[i % quantities].name];
-      if (!name.empty()) place = &(*place)[name];
-      if (end >= 0) place = &(*place)[static_cast<std::size_t>(end)];
-      *place = number(numbers[begin + i]);
-    }
-  }
-}
-
-/// Everything single that it says of itself, and the numbers of outputs at its last time; the file has all.
-Json objectOf(const Results& results, const FurtherPart& part) {
-  if (!part.present) return nullptr;
-  Json object = Json::object(), outputs = Json::object();
-  Reached reached{
-      {std::string(dimension::time),
-       static_cast<std::size_t>(std::ranges::upper_bound(results.time, part.reached) - results.time.begin())}};
-  std::vector<Group> groups;
-  const_cast<FurtherPart&>(part).describe(groups);  // resize, which alone changes anything, is not called
-  bool areBoundsAlone = true;                       // then they need no name
-  for (const Group& group : groups)
-    for (const Field& field : group.isList() || group.size == 0 ? std::vector<Field>() : group.fields(0))
-      areBoundsAlone = areBoundsAlone && (field.dimensions.empty() || isScale(group, field) || field.name == "lower" ||
-                                          field.name == "upper");
-  for (const Group& group : groups)
-    for (const Field& field : group.isList() || group.size == 0 ? std::vector<Field>() : group.fields(0)) {
-      const std::string name(field.name);
-      if (field.dimensions.empty()) {
-        if (name != "stopped") object[name] = valueOf(field.value);
-      } else if (!isScale(group, field)) {
-        addOutputs(outputs, results, field, reached, areBoundsAlone ? "" : "bounds");
-      } else if (const auto* times = std::get_if<std::vector<double>*>(&field.value)) {
-        reached[pathOf(group, field)] = (*times)->size();
-        object[name] = (*times)->empty() ? Json(nullptr) : number((*times)->back());
-      }
-    }
-  object["outputs"] = std::move(outputs);
+        if (isKnown(at, k))
+          object["outputs"][results.outputs[k].name][fmt::format("{}", d.time[at])]["quantiles"][fmt::format("{}", p)] =
+              quantileOf(d, d.begin(at, k, outputs), p);
+  if (!(d.band > 0)) object["band"] = nullptr;
   return object;
 }
 
 /// What the samples say at the last time that all reached, with 95 % confidence intervals: [lower, upper].
-Json statisticsObject(const Results& results) {
+Json statisticsObject(const Results& results, const Teller& teller) {
   const StochasticResult& s = results.stochastic;
   if (!s.present || s.mean.empty()) return nullptr;
-  const auto reached = std::ranges::upper_bound(results.time, s.reached) - results.time.begin();
-  const auto row = static_cast<std::size_t>(std::max<std::ptrdiff_t>(reached, 1) - 1);
-  const auto at = [&](const Table& table, std::size_t output) {
-    return table.empty() ? std::numeric_limits<double>::quiet_NaN() : table(row, output);
-  };
-  const auto atLevel = [&](const std::vector<Table>& tables, std::size_t q, std::size_t output) {
-    return at(tables.empty() ? Table() : tables[q], output);
-  };
-  Json outputs = Json::object();
-  for (std::size_t k = 0; k < results.outputs.size(); ++k) {
-    const auto put = [&](Json& object, const char* name, const Table& values, const Table& errors) {
-      const double value = at(values, k), error = at(errors, k);
-      object[name] = number(value);
-      object[fmt::format("{}_interval", name)] = Json::array({number(value - error), number(value + error)});
-    };
-    Json& of = outputs[results.outputs[k].name];
-    put(of, "mean", s.mean, s.meanError);
-    put(of, "deviation", s.deviation, s.deviationError);
-    of["quantiles"] = Json::object();
-    for (std::size_t q = 0; q < s.probabilities.size(); ++q)
-      of["quantiles"][fmt::format("{}", s.probabilities[q])] = {
-          {"value", number(atLevel(s.quantiles, q, k))},
-          {"interval", Json::array({number(atLevel(s.quantileLower, q, k)), number(atLevel(s.quantileUpper, q, k))})}};
-  }
-  Json failed = Json::array();
-  for (const FailedSampleResult& f : s.failed)
-    failed.push_back({{"number", f.number}, {"reached", f.reached}, {"why", f.why}});
-  return {{"time", results.time[row]},
+  Json outputs = std::move(teller.record("/stochastic")["outputs"]);
+  for (Json& of : outputs)
+    for (const std::string name : {"mean", "deviation"}) {
+      const Json value = of[name], error = of[name + "_error"];
+      const bool isKnown = value.is_number() && error.is_number();
+      of[name + "_interval"] = isKnown ? Json::array({number(value.get<double>() - error.get<double>()),
+                                                      number(value.get<double>() + error.get<double>())})
+                                       : Json::array({nullptr, nullptr});
+      of.erase(name + "_error");
+      of.emplace("quantiles", Json::object());
+    }
+  return {{"time", results.time[teller.timesUntil(s.reached) - 1]},
           {"covered", s.covered > 0 ? Json(s.covered) : Json(nullptr)},
           {"failures", s.failures},
-          {"failed", failed},
-          {"outputs", outputs}};
+          {"failed", teller.list("/stochastic/failed")},
+          {"outputs", std::move(outputs)}};
 }
 
 /// Of the times of distributions alone.
-Json sensitivityObject(const Results& results) {
+Json sensitivityObject(const Results& results, const Teller& teller) {
   const SensitivityResult& s = results.sensitivity;
   if (!s.present) return nullptr;
-  Json outputs = Json::object();
-  const std::size_t quantities = results.uncertain.size();
-  for (std::size_t k = 0; k < results.outputs.size(); ++k)
-    for (std::size_t at = 0; at < s.time.size(); ++at) {
-      const std::size_t cell = at * results.outputs.size() + k;
-      if (std::ranges::find(results.distribution.time, s.time[at]) == results.distribution.time.end() ||
-          (std::isnan(s.meanLower[cell]) && s.why.empty()))
-        continue;
-      Json shares = Json::object();
-      for (std::size_t q = 0; q < quantities; ++q) {
-        const std::size_t i = cell * quantities + q;
-        shares[results.uncertain[q].name] = {{"first", Json::array({number(s.firstLower[i]), number(s.firstUpper[i])})},
-                                             {"total", Json::array({number(s.totalLower[i]), number(s.totalUpper[i])})},
-                                             {"pinched", s.pinched.empty() ? Json(nullptr) : number(s.pinched[i])}};
-        if (s.firstSampled.empty()) continue;
-        Json& of = shares[results.uncertain[q].name];
-        of["first_sampled"] = Json::array({number(s.firstSampled[i]), number(s.firstError[i])});
-        of["total_sampled"] = Json::array({number(s.totalSampled[i]), number(s.totalError[i])});
-      }
-      outputs[results.outputs[k].name][fmt::format("{}", s.time[at])] = {
-          {"mean", Json::array({number(s.meanLower[cell]), number(s.meanUpper[cell])})},
-          {"deviation", Json::array({number(s.deviationLower[cell]), number(s.deviationUpper[cell])})},
-          {"indices", shares}};
+  const std::vector<double>& times = results.distribution.time;
+  Json outputs = std::move(teller.record("/sensitivity", [&](std::size_t at, std::size_t k) {
+    return std::ranges::find(times, s.time[at]) != times.end() &&
+           !(std::isnan(s.meanLower[at * results.outputs.size() + k]) && s.why.empty());
+  })["outputs"]);
+  for (Json& ofOutput : outputs)
+    for (Json& of : ofOutput) {
+      of.emplace("indices", Json::object());
+      for (Json& ofQuantity : of["indices"])
+        for (const char* sampled : {"first_sampled", "total_sampled"})
+          if (s.firstSampled.empty()) ofQuantity.erase(sampled);
     }
   return outputs;
 }
 
 /// How much of the proved alpha-cuts samples leave.
-Json transformationObject(const Results& results) {
+Json transformationObject(const Results& results, const Teller& teller) {
   const TransformationResult& t = results.fuzzy.transformation;
   if (!t.present) return nullptr;
-  Json stepped = t.stepped.empty() ? Json(nullptr) : Json::array(), gaps = Json::object();
+  Json object = teller.record("/fuzzy/transformation", [&](std::size_t level, std::size_t k) {
+    return !t.gap.empty() && !std::isnan(t.gap[level * results.outputs.size() + k]);
+  });
+  object["gaps"] = std::move(object["outputs"]);
+  object.erase("outputs");
+  object["points"] = results.stochastic.alphaPoints;
+  Json& stepped = object["stepped"] = t.stepped.empty() ? Json(nullptr) : Json::array();
   for (std::size_t q = 0; q < t.stepped.size(); ++q)
     if (t.stepped[q] != 0) stepped.push_back(results.uncertain[q].name);
-  for (std::size_t k = 0; k < results.outputs.size(); ++k)
-    for (std::size_t level = 0; level < results.fuzzy.alpha.size() && !t.gap.empty(); ++level)
-      if (const std::size_t i = level * results.outputs.size() + k; !std::isnan(t.gap[i]))
-        gaps[results.outputs[k].name][fmt::format("{}", results.fuzzy.alpha[level])] = {{"gap", t.gap[i]},
-                                                                                        {"time", t.gapTime[i]}};
-  return {{"method", t.method},
-          {"points", results.stochastic.alphaPoints},
-          {"stepped", std::move(stepped)},
-          {"gaps", std::move(gaps)}};
+  return object;
 }
 
 /// {output name → its unit, least and greatest, and when}.
@@ -317,6 +304,7 @@ Json rangesObject(const Results& results) {
 }  // namespace
 
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {
+  const Teller teller(results);
   Json json;
   json["verdict"] = textOrNull(verdict);
   json["horizon"] = number(results.horizon);
@@ -332,12 +320,15 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["shortfall"] = textOrNull(results.interval.shortfall);
   json["advice"] = textOrNull(results.interval.advice);
   json["outputs"] = rangesObject(results);
-  json["requirements"] = requirementsArray(results);
-  json["statistics"] = statisticsObject(results);
-  json["alpha_cuts"] = transformationObject(results);
-  json["distribution"] = distributionObject(results);
-  json["sensitivity"] = sensitivityObject(results);
-  for (const Boxed<FurtherPart>& part : results.further) json[std::string(part->key())] = objectOf(results, *part);
+  json["requirements"] = requirementsArray(results, teller);
+  json["statistics"] = statisticsObject(results, teller);
+  json["alpha_cuts"] = transformationObject(results, teller);
+  json["distribution"] = distributionObject(results, teller);
+  json["sensitivity"] = sensitivityObject(results, teller);
+  for (const Boxed<FurtherPart>& part : results.further) {
+    const std::string key(part->key());
+    json[key] = part->present ? teller.record("/" + key) : Json(nullptr);
+  }
   json["enclosure"] = boundsObject(results.interval.at, results);
   json["envelope"] = boundsObject(results.stochastic.envelope, results);
   Json& cost = json["cost"];

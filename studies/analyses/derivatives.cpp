@@ -102,6 +102,7 @@ class DerivativeAnalysis final : public AnalysisOf<DerivativeAnalysis, Derivativ
 void DerivativeResult::describe(std::vector<Group>& groups) {
   groups.push_back(
       groupOf("/derivatives", "how outputs change with the uncertain quantities, proved", *this, fieldsOf));
+  groups.back().inJson = {{"lower", "*/0"}, {"upper", "*/1"}};
   groups.back().makesSense = [this](std::size_t) {
     for (std::size_t i = 0; i < lower.size(); ++i)
       if (lower[i] > upper[i]) return false;

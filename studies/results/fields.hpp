@@ -106,6 +106,9 @@ struct Group {
   std::function<std::vector<Field>(std::size_t)> fields;
   /// Whether the numbers of record i make sense together.
   std::function<bool(std::size_t)> makesSense = [](std::size_t) { return true; };
+  /// Where fields stand in JSON, in the object of their part or in that of an output, if not by their names: keys with
+  /// '/' between them, 0 and 1 of a list, '*' of a dimension beside times and outputs; "": nowhere.
+  std::map<std::string_view, std::string_view> inJson = {};
 
   bool isList() const { return !dimension.empty(); }
 };

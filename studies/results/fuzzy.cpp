@@ -76,6 +76,7 @@ void FuzzyResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/fuzzy", "what is possible: alpha-cuts of every output", *this, fieldsOf));
   groups.push_back(groupOf("/fuzzy/transformation", "where samples lie inside the alpha-cuts, and what they leave",
                            transformation, fieldsOfTransformation));
+  groups.back().inJson = {{"stepped", ""}, {"turns", ""}, {"gap", "*/gap"}, {"gap_time", "*/time"}};
   groups.back().makesSense = [this](std::size_t) { return areShares(transformation.gap); };
   groups.push_back(groupOf("/fuzzy/influence", "how much each quantity matters", influence, fieldsOfInfluence));
   groups.back().makesSense = [this](std::size_t) { return areShares(influence.share); };

@@ -69,7 +69,7 @@ struct Answer : TimedPart {
 struct FurtherPart : TimedPart {
   virtual ~FurtherPart() = default;
   virtual std::unique_ptr<FurtherPart> copy() const = 0;
-  /// Its key in JSON.
+  /// Its key in JSON, and the name of its group in the file.
   virtual std::string_view key() const = 0;
   /// What is done to what the title names: "enclosed".
   virtual std::string_view verb() const = 0;

@@ -104,11 +104,19 @@ std::string DistributionResult::amount() const {
 
 void DistributionResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/distribution", "how probable values of the outputs are, proved", *this, fieldsOf));
+  groups.back().inJson = {{"value", ""}, {"lower", ""}, {"upper", ""}, {"sampled", ""}, {"gaps", "gap"}};
   groups.back().makesSense = [this](std::size_t) { return areShares(lower, upper) && areShares(sampled); };
 }
 
 void SensitivityResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/sensitivity", "whose doing the outputs' variance is, proved", *this, fieldsOf));
+  groups.back().inJson = {{"first", "indices/*/first"},
+                          {"total", "indices/*/total"},
+                          {"pinched", "indices/*/pinched"},
+                          {"first_sampled", "indices/*/first_sampled/0"},
+                          {"first_error", "indices/*/first_sampled/1"},
+                          {"total_sampled", "indices/*/total_sampled/0"},
+                          {"total_error", "indices/*/total_sampled/1"}};
   groups.back().makesSense = [this](std::size_t) {
     return areShares(firstLower, firstUpper) && areShares(totalLower, totalUpper) && areShares(pinched);
   };

@@ -188,6 +188,25 @@ void describe(std::vector<MarginInfo>& margins, std::vector<Group>& groups) {
 
 void describe(std::vector<RequirementResult>& requirements, std::vector<Group>& groups) {
   groups.push_back(listOf("/requirements", "what the motion is to keep", "/requirements/name", requirements, fieldsOf));
+  groups.back().inJson = {{"always", ""},
+                          {"margin", ""},
+                          {"margins", ""},
+                          {"word", "guaranteed"},
+                          {"violation", "violation/*"},
+                          {"violation_sample", ""},
+                          {"violation_between", ""},
+                          {"violation_time", ""},
+                          {"violation_lower", ""},
+                          {"violation_upper", ""},
+                          {"share", "confidence"},
+                          {"worst_time", "simulated_violation/time"},
+                          {"worst_margin", "simulated_violation/margin"},
+                          {"violated_in_simulation", ""},
+                          {"estimate_samples", "estimate/samples"},
+                          {"estimate_met", "estimate/met"},
+                          {"estimate_violated", "estimate/violated"},
+                          {"estimate", "estimate/confidence"},
+                          {"estimate_first_order", "estimate/first_order"}};
   groups.back().makesSense = [&requirements](std::size_t i) {
     const RequirementResult& r = requirements[i];
     return r.probabilityLower <= r.probabilityUpper && r.violationLeast <= r.violationMost &&

@@ -206,6 +206,11 @@ std::string StochasticResult::amount() const {
 
 void StochasticResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/stochastic", "what is probable: samples of every output", *this, fieldsOf));
+  groups.back().inJson = {{"envelope", ""},
+                          {"error", ""},
+                          {"resolution", ""},
+                          {"quantiles", "quantiles/*/value"},
+                          {"quantile", "quantiles/*/interval"}};
   groups.push_back(listOf("/stochastic/failed", "samples that did not arrive, the first thousand of them",
                           "/stochastic/failed/number", failed, fieldsOfFailed));
   groups.push_back(
