@@ -53,9 +53,7 @@ void say(const Results& results, const Verdict& verdict, const ResultFiles& file
     fmt::print(stream, "{}", textSummary(results));
     fmt::print(stream, "  results: {}\n  report:  {}\n", nameOrNone(files.results), nameOrNone(files.report));
   }
-  if (arguments.json)
-    fmt::print("{}\n",
-               jsonSummary(results, results.comparison.present ? std::string(wordOf(verdict.word)) : "", files));
+  if (arguments.json) fmt::print("{}\n", jsonSummary(results, verdict, files));
 }
 
 std::string inWords(const std::exception& error) {
@@ -63,13 +61,13 @@ std::string inWords(const std::exception& error) {
 }
 
 /// The results are safe: whatever keeps the page from being drawn costs no more than the page.
-void drawPage(const Results& results, OutputFile& page, ResultFiles& files) {
+void drawPage(const Results& results, const Verdict& verdict, OutputFile& page, ResultFiles& files) {
   const std::string again = fmt::format("{} is written; draw its page by: gamut report {} -o {} --force", files.results,
                                         shellQuoted(files.results), shellQuoted(page.path()));
   sayOnInterrupt("interrupted before the page was drawn; " + again);
   const double start = processCpuSeconds();
   try {
-    page.write(renderReport(results));
+    page.write(renderReport(results, verdict));
   } catch (const WriteError& error) {
     throw WriteError(fmt::format("{}; {}", error.what(), again));
   } catch (const std::exception& error) {
@@ -137,7 +135,7 @@ ExitCode keepAndSay(const Results& results, OutputFile& resultsFile, OutputFile&
     if (keeping.results() != nullptr) {
       writeResults(results, *keeping.results());
       files.results = keeping.results()->path();
-      if (keeping.report() != nullptr) drawPage(results, *keeping.report(), files);
+      if (keeping.report() != nullptr) drawPage(results, verdict, *keeping.report(), files);
     }
   } catch (const std::exception& error) {
     problem = inWords(error);

@@ -17,7 +17,6 @@
 
 #include "studies/results/extremes.hpp"
 #include "studies/results/instants.hpp"
-#include "studies/results/verdict.hpp"
 
 namespace gamut {
 namespace {
@@ -303,13 +302,13 @@ Json rangesObject(const Results& results) {
 
 }  // namespace
 
-std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {
+std::string jsonSummary(const Results& results, const Finding& finding, const ResultFiles& files) {
   const Teller teller(results);
   Json json;
-  json["verdict"] = textOrNull(verdict);
+  json["verdict"] = results.comparison.present ? Json(wordOf(finding.word)) : Json(nullptr);
   json["horizon"] = number(results.horizon);
   json["reached"] = number(reachedTime(results));
-  json["why"] = textOrNull(whyIncomplete(results, findVerdict(results)));
+  json["why"] = textOrNull(whyIncomplete(results, finding));
   json["stopped"] = textOrNull(results.stopped);
   json["samples"] = results.stochastic.samples;
   json["integrated"] = results.stochastic.integrated;

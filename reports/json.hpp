@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "studies/results/results.hpp"
+#include "studies/results/verdict.hpp"
 
 namespace gamut {
 
@@ -15,7 +15,7 @@ struct ResultFiles {
 };
 
 /// One JSON object on one line; keys: docs/json.md. Numbers are the shortest decimals that give the same double back;
-/// what is not finite is null, and so is an empty verdict.
-std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files = {});
+/// what is not finite is null. `finding`: what findVerdict() said of the results.
+std::string jsonSummary(const Results& results, const Finding& finding, const ResultFiles& files = {});
 
 }  // namespace gamut

@@ -94,9 +94,10 @@ std::string rendered(const Results& results, const Verdict& verdict, const Detai
 
 }  // namespace
 
-std::string renderReport(const Results& results) {
+std::string renderReport(const Results& results) { return renderReport(results, judge(results)); }
+
+std::string renderReport(const Results& results, const Verdict& verdict) {
   constexpr int levels = 8;
-  const Verdict verdict = judge(results);
   for (int level = 0;; ++level) {
     std::string page = rendered(results, verdict, detailOf(results, level));
     if (page.size() < largestPage || level == levels) return page;

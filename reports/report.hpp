@@ -8,8 +8,11 @@
 
 namespace gamut {
 
+struct Verdict;
+
 /// The page as HTML (UTF-8). Works from the results alone; an analysis that is absent is left out.
-/// Throws std::invalid_argument if a grid's shape does not fit times and outputs.
+/// Throws std::invalid_argument if a grid's shape does not fit times and outputs. `verdict`: what judge() said of them.
+std::string renderReport(const Results& results, const Verdict& verdict);
 std::string renderReport(const Results& results);
 
 /// Renders and writes the page: beside its place first, then renamed into it, so that nobody sees half a page.

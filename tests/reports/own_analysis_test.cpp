@@ -105,7 +105,7 @@ std::string refusalOf(const std::string& section, const std::string& old = "", c
 TEST(OwnAnalysis, IsFoundOnlyWhereItIsAskedFor) {
   const Results without = run(studyOf(""));
   EXPECT_FALSE(without.of<CoreResult>().present);
-  EXPECT_EQ(nlohmann::json::parse(jsonSummary(without, ""))["core"], nullptr);
+  EXPECT_EQ(nlohmann::json::parse(jsonSummary(without, findVerdict(without)))["core"], nullptr);
   EXPECT_EQ(without.comparison.verdict, Agreement::inside);
 }
 
@@ -130,7 +130,7 @@ TEST(OwnAnalysis, IsFoundKeptAndTold) {
   EXPECT_FALSE(readResults(path).of<CoreResult>().present);  // who does not know it, reads the rest
   std::filesystem::remove(path);
 
-  const nlohmann::json json = nlohmann::json::parse(jsonSummary(read, "inside"))["core"];
+  const nlohmann::json json = nlohmann::json::parse(jsonSummary(read, findVerdict(read)))["core"];
   EXPECT_EQ(json["share"], 0.5);
   EXPECT_EQ(json["reached"], 0.5);
   EXPECT_EQ(json["why"], nullptr);

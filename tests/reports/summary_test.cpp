@@ -55,7 +55,7 @@ TEST(Summary, TellsACoreAsTheStudyStatesIt) {
 }
 
 TEST(JsonSummary, HasTheDocumentedKeys) {
-  const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html", 0.0625});
+  const std::string text = jsonSummary(sampleResults(), findVerdict(sampleResults()), {"run.h5", "run.html", 0.0625});
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
   EXPECT_THAT(keysOf(json),
@@ -68,7 +68,7 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
                                                 "requirements", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),
               ElementsAre("enclosure_memory", "enclosure_time", "memory", "sample_time", "time"));
-  EXPECT_EQ(json["verdict"], "incomplete");
+  EXPECT_EQ(json["verdict"], wordOf(findVerdict(sampleResults()).word));
   EXPECT_EQ(json["horizon"], 0.02);
   EXPECT_EQ(json["reached"], 0.01);
   EXPECT_EQ(json["samples"], 4096);
@@ -106,7 +106,7 @@ TEST(JsonSummary, SaysWhatIsKnownOfARequirement) {
   requirement.isViolatedInSimulation = true;
   requirement.worstSample = 17;
   requirement.worstMargin = -0.25;
-  const Json json = Json::parse(jsonSummary(results, "inside"))["requirements"][0];
+  const Json json = Json::parse(jsonSummary(results, findVerdict(results)))["requirements"][0];
   EXPECT_EQ(json["guaranteed"], "partly");
   EXPECT_EQ(json["simulated_violation"]["sample"], 17);
   EXPECT_EQ(json["simulated_violation"]["margin"], -0.25);
@@ -115,7 +115,7 @@ TEST(JsonSummary, SaysWhatIsKnownOfARequirement) {
 TEST(JsonSummary, KeysTimesByTheirShortestDecimalAndKeepsEveryBit) {
   Results results = sampleResults();
   results.interval.at.lower(1, 0) = 0.1 + 0.2;
-  const Json json = Json::parse(jsonSummary(results, ""));
+  const Json json = Json::parse(jsonSummary(results, findVerdict(results)));
   EXPECT_THAT(keysOf(json["enclosure"]["tip height"]), ElementsAre("0", "0.01"));  // 0.02 was not reached
   EXPECT_THAT(keysOf(json["envelope"]["energy"]), ElementsAre("0", "0.01", "0.02"));
   EXPECT_EQ(json["enclosure"]["tip height"]["0.01"][0].get<double>(), 0.1 + 0.2);
@@ -124,8 +124,9 @@ TEST(JsonSummary, KeysTimesByTheirShortestDecimalAndKeepsEveryBit) {
 
 TEST(JsonSummary, SaysNullWhereThereIsNoNumber) {
   Results results = sampleResults();
+  results.comparison.present = false;
   results.comparison.maximum = std::numeric_limits<double>::infinity();
-  const Json json = Json::parse(jsonSummary(results, ""));
+  const Json json = Json::parse(jsonSummary(results, findVerdict(results)));
   EXPECT_TRUE(json["overestimation"]["max"].is_null());
   EXPECT_TRUE(json["overestimation"]["outputs"]["energy"].is_null());
   EXPECT_EQ(json["overestimation"]["outputs"]["tip height"], 12);
@@ -227,7 +228,7 @@ TEST(TextSummary, ListsWhatRequirementsAndAdviceCost) {
   addCost(results, "advice", 6.25);
   addCost(results, "requirements", 2.5);
   EXPECT_THAT(textSummary(results), HasSubstr("requirements 3.50 s, advice 6.25 s"));
-  const Json cost = Json::parse(jsonSummary(results, "inside", {}))["cost"];
+  const Json cost = Json::parse(jsonSummary(results, findVerdict(results), {}))["cost"];
   EXPECT_EQ(cost["requirements"], 3.5);
   EXPECT_EQ(cost["advice"], 6.25);
   EXPECT_EQ(cost["equations"], 0);
@@ -237,7 +238,7 @@ TEST(TextSummary, ListsWhatRequirementsAndAdviceCost) {
 TEST(JsonSummary, KnowsNoCostThatTheFileDoesNotHold) {
   Results results = sampleResults();
   results.costs.clear();
-  const Json cost = Json::parse(jsonSummary(results, "inside", {}))["cost"];
+  const Json cost = Json::parse(jsonSummary(results, findVerdict(results), {}))["cost"];
   for (const char* what : {"equations", "requirements", "advice"}) EXPECT_TRUE(cost[what].is_null()) << what;
   EXPECT_EQ(cost["interval"], 0.25);
 }
@@ -256,7 +257,7 @@ TEST(TextSummary, LeadsWithTheLeastAndTheGreatestOfTheWholeMotion) {
   EXPECT_THAT(text, HasSubstr("1.000"));
   EXPECT_THAT(text, HasSubstr("3.500  between 0 s and 0.01 s"));
   EXPECT_LT(text.find("guaranteed from"), text.find("at 0.01 s  "));
-  const Json json = Json::parse(jsonSummary(results, ""))["outputs"]["tip height"];
+  const Json json = Json::parse(jsonSummary(results, findVerdict(results)))["outputs"]["tip height"];
   EXPECT_EQ(json["unit"], "m");
   EXPECT_EQ(json["guaranteed"]["greatest"], Json({{"value", 3.5}, {"from", 0}, {"until", 0.01}}));
   EXPECT_EQ(json["guaranteed"]["least"], Json({{"value", 1}, {"from", 0}, {"until", 0}}));

@@ -337,8 +337,7 @@ TEST(Verdict, NamesTheOutputOfWhichNothingFiniteIsGuaranteed) {
   EXPECT_THAT(verdict.notes, Contains(AllOf(HasSubstr("Nothing finite is guaranteed of " + results.outputs[1].name),
                                             HasSubstr("infinite or undefined for some values"))));
   EXPECT_EQ(whyIncomplete(results, verdict), unboundedText(results, verdict));
-  EXPECT_THAT(jsonSummary(results, std::string(wordOf(verdict.word)), {}),
-              HasSubstr("\"why\":\"nothing finite is guaranteed of "));
+  EXPECT_THAT(jsonSummary(results, verdict, {}), HasSubstr("\"why\":\"nothing finite is guaranteed of "));
 }
 
 TEST(Verdict, SaysBetweenWhichTimesNothingFiniteIsGuaranteed) {
