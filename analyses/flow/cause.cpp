@@ -1,7 +1,7 @@
 // One sentence a cause. Keys are those of a study.
 #include "analyses/flow/cause.hpp"
 
-#include "analyses/flow/flow.hpp"
+#include "analyses/flow/series/monomials.hpp"
 
 namespace gamut {
 
@@ -10,11 +10,11 @@ std::string FlowCause::sentence() const {
     case Kind::none:
       return {};
     case Kind::interrupted:
-      return Tube::interrupted;
+      return interrupted;
     case Kind::outOfMemory:
-      return Tube::outOfMemory;
+      return outOfMemory;
     case Kind::overBudget:
-      return Tube::overBudget;
+      return overBudget;
     case Kind::escape:
       return what;
     case Kind::edge:
@@ -52,7 +52,7 @@ namespace {
 
 /// None of one that may not be stated.
 std::string ofDegree(int number) {
-  return number > 0 && number <= FlowOptions::mostDegree ? "interval.degree = " + std::to_string(number) : "";
+  return number > 0 && number <= Monomials::mostDegree ? "interval.degree = " + std::to_string(number) : "";
 }
 
 }  // namespace

@@ -30,6 +30,10 @@ struct FlowCause {
     vain,  ///< a stricter run left as much over
     rounds
   };
+  static constexpr const char* interrupted = "interrupted";
+  static constexpr const char* outOfMemory = "out of memory";
+  static constexpr const char* overBudget = "the work that may be done is done";
+
   Kind kind = Kind::none;
   std::string what = {};  ///< of the motion, in words
   int number = 0;         ///< pieces that are allowed; of `vain`, `rounds`, `remainder`: a degree to try

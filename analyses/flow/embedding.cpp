@@ -160,35 +160,25 @@ int automaticFrameDegree(int symbols, int degree) {
   return std::min(degree, symbols == 1 ? 4 : symbols <= 3 ? 2 : symbols <= 8 ? 3 : 1);
 }
 
-Interval inflated(const Interval& range, double radius) {
-  if (!(radius < std::numeric_limits<double>::infinity())) return Interval::entire();
-  return range + Interval(-radius, radius);
-}
-
-Interval rangeOf(const Embedded& value) {
-  return inflated(inflated(Interval(value.centre), std::fabs(value.half)), value.coarseRadius());
-}
-
-Box rangesOf(const std::vector<Embedded>& values) {
-  Box ranges;
-  for (const Embedded& value : values) ranges.push_back(rangeOf(value));
-  return ranges;
-}
-
-void halve(std::vector<Embedded>& values, int symbol, double middle) {
-  for (Embedded& value : values) {
-    if (value.symbol != symbol) continue;
-    const double centre = value.centre + value.half * middle;  // the product is exact: a power of two
-    value.radius = (value.radius + bounds::unit * std::fabs(centre)) * bounds::up + bounds::tiny;
-    value.centre = centre;
-    value.half *= 0.5;
+FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, int frameDegree) {
+  FlowSet s;
+  const int N = monomials.count();
+  s.powers = at(monomials.countUpTo(frameDegree));
+  s.p.assign(at(n * N), 0.0);
+  s.C.assign(at(n * n), 0.0);
+  s.R.assign(at(n), 0.0);
+  s.W.assign(at(n), 0.0);
+  for (int i = 0; i < n; ++i) {
+    const Embedded& e = embedding.components[at(i)];
+    s.p[at(i * N)] = e.centre;
+    if (e.symbol >= 0) s.p[at(i * N + monomials.linear(e.symbol))] = e.half;
+    s.R[at(i)] = e.coarseRadius();
+    s.C[at(i * n + i)] = 1.0;
   }
-}
-
-void halve(std::vector<double>& centre, std::vector<double>& half, int symbol, double middle) {
-  if (at(symbol) >= half.size()) return;  // one of a remainder's own
-  centre[at(symbol)] += half[at(symbol)] * middle;
-  half[at(symbol)] *= 0.5;
+  s.parameters.assign(embedding.components.begin() + n, embedding.components.end());
+  s.centre.assign(at(embedding.symbols), 0.0);
+  s.half.assign(at(embedding.symbols), 1.0);
+  return s;
 }
 
 void requireThat(bool condition, const std::string& what) {

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "analyses/flow/flow.hpp"
-#include "analyses/flow/monomials.hpp"
-#include "analyses/flow/polynomial_range.hpp"
-#include "analyses/flow/polynomial_series.hpp"
+#include "analyses/flow/series/embedded.hpp"
+#include "analyses/flow/series/monomials.hpp"
+#include "analyses/flow/series/polynomial_range.hpp"
+#include "analyses/flow/step/set.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -72,16 +73,8 @@ int frameDegreeOfFixed(const std::vector<int>& weights, int degree);
 /// Of the frame, for so many symbols of weight 1.
 int automaticFrameDegree(int symbols, int degree);
 
-/// range + [-radius, radius]; the whole line for a radius that is infinite or no number.
-Interval inflated(const Interval& range, double radius);
-
-/// All that the number may be; that all of them may.
-Interval rangeOf(const Embedded& value);
-Box rangesOf(const std::vector<Embedded>& values);
-
-/// From now on ξ_symbol = middle + ξ'/2, middle ±1/2, of numbers and of a piece, centre + half·ξ.
-void halve(std::vector<Embedded>& values, int symbol, double middle);
-void halve(std::vector<double>& centre, std::vector<double>& half, int symbol, double middle);
+/// The set of n states at the start, without second doubles.
+FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, int frameDegree);
 
 /// Throws std::invalid_argument unless the condition holds.
 void requireThat(bool condition, const std::string& what);

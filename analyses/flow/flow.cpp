@@ -11,11 +11,12 @@
 
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/needed_states.hpp"
+#include "analyses/flow/outputs/plain_outputs.hpp"
 #include "analyses/flow/polygon_tube.hpp"
 #include "analyses/flow/refinement.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/flow/step/time_kinks.hpp"
 #include "analyses/flow/surfaces.hpp"
-#include "analyses/flow/time_kinks.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/sides.hpp"
@@ -69,7 +70,7 @@ void requireSound(const Program& f, const Program& g, const FlowOptions& options
   requireThat(options.order == 0 || (options.order >= 4 && options.order <= 30),
               "the order of a flow must be 4 to 30 (0: automatic)");
   requireThat(options.longestStep > 0, "the longest step of a flow must be above 0 s");
-  requireThat(options.degree >= -1 && options.degree <= FlowOptions::mostDegree,
+  requireThat(options.degree >= -1 && options.degree <= Monomials::mostDegree,
               "the degree of a flow's polynomials must be 0 to 40 (-1: automatic)");
   requireThat(options.maxPieces >= 1, "a flow needs at least one piece");
   requireThat(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");

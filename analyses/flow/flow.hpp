@@ -48,8 +48,6 @@ struct FlowAside {
 /// Options of a flow; the defaults choose for themselves. One says how tight the enclosure is to be, from which the
 /// others follow.
 struct FlowOptions {
-  static constexpr int mostDegree = 40;
-
   double tightness = 1.02;  ///< overestimation aimed at: what the remainder may add to the width of an output (without
                             ///< outputs: of a state) at the output times is the part above 1
   int order = 0;            ///< in time: Taylor coefficients kept a step (4 … 30); 0: by the tolerance
@@ -111,9 +109,9 @@ class Tube {
   /// enough any more, or what else could not be proved. `interrupted` if `cancelled` was set before, `outOfMemory` if a
   /// request for memory failed. Empty if it did not end early.
   const std::string& why() const { return why_; }
-  static constexpr const char* interrupted = "interrupted";
-  static constexpr const char* outOfMemory = "out of memory";
-  static constexpr const char* overBudget = "the work that may be done is done";
+  static constexpr const char* interrupted = FlowCause::interrupted;
+  static constexpr const char* outOfMemory = FlowCause::outOfMemory;
+  static constexpr const char* overBudget = FlowCause::overBudget;
   /// Whether it ended early for one of these three, not for the motion's sake.
   bool wasStopped() const { return cause_.isStop(); }
   /// The cause of an early end, of which why() is the sentence.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analyses/flow/plain_outputs.hpp"
+#include "analyses/flow/outputs/plain_outputs.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 #include "scalars/program/sides.hpp"
@@ -48,17 +48,6 @@ std::vector<char> dependents(const Program& program, int first) {
 }
 
 }  // namespace
-
-bool dependsOnTime(const Program& program) {
-  const std::vector<Node>& nodes = program.nodes();
-  const auto isTime = [&](int node) { return nodes[at(node)].op == Op::time; };
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    bool does = false;
-    detail::forEachOperand(program.table(), static_cast<int>(i), [&](int operand) { does = does || isTime(operand); });
-    if (does) return true;
-  }
-  return std::ranges::any_of(program.outputNodes(), isTime);
-}
 
 std::vector<char> bentStates(const Program& f) {
   std::vector<char> bent(at(f.states()), 0);

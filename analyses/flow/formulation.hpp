@@ -14,7 +14,6 @@ namespace gamut {
 /// f, ∂f/∂x row by row, ∂f/∂w of the inputs row by row.
 Program differentiatedFor(const Program& f, const std::vector<VaryingParameter>& inputs);
 
-bool dependsOnTime(const Program& program);
 /// Of each state, whether f is not linear in it, signs and parameters given.
 std::vector<char> bentStates(const Program& f);
 

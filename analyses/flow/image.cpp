@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "analyses/flow/embedding.hpp"
-#include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/flow.hpp"
-#include "analyses/flow/outputs.hpp"
+#include "analyses/flow/outputs/outputs.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/flow/surfaces.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "analyses/flow/asides.hpp"
-#include "analyses/flow/mean_value_outputs.hpp"
-#include "analyses/flow/outputs.hpp"
-#include "analyses/flow/polynomial_range.hpp"
-#include "analyses/flow/settling.hpp"
-#include "analyses/flow/step.hpp"
+#include "analyses/flow/outputs/asides.hpp"
+#include "analyses/flow/outputs/mean_value_outputs.hpp"
+#include "analyses/flow/outputs/outputs.hpp"
+#include "analyses/flow/series/polynomial_range.hpp"
+#include "analyses/flow/series/top_grades.hpp"
+#include "analyses/flow/step/settling.hpp"
+#include "analyses/flow/step/step.hpp"
 #include "analyses/flow/task.hpp"
-#include "analyses/flow/top_grades.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/program/sides.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {

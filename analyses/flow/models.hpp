@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analyses/flow/monomials.hpp"
+#include "analyses/flow/series/monomials.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {

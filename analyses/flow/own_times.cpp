@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/journey.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {

@@ -6,7 +6,7 @@
 
 #include "analyses/flow/cause.hpp"
 #include "analyses/flow/flow.hpp"
-#include "analyses/flow/scales.hpp"
+#include "analyses/flow/step/scales.hpp"
 #include "analyses/flow/task.hpp"
 
 namespace gamut {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "analyses/flow/flow.hpp"
-#include "analyses/flow/polygon_blocks.hpp"
-#include "analyses/flow/polygon_range.hpp"
+#include "analyses/flow/polygons/polygon_blocks.hpp"
+#include "analyses/flow/polygons/polygon_range.hpp"
 #include "analyses/flow/task.hpp"
 
 namespace gamut {

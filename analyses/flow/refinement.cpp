@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "analyses/flow/plain_degrees.hpp"
-#include "analyses/flow/polynomial_series.hpp"
 #include "analyses/flow/run.hpp"
-#include "analyses/flow/scales.hpp"
-#include "analyses/flow/set.hpp"
-#include "analyses/flow/step.hpp"
+#include "analyses/flow/series/polynomial_series.hpp"
+#include "analyses/flow/step/scales.hpp"
+#include "analyses/flow/step/set.hpp"
+#include "analyses/flow/step/step.hpp"
 #include "analyses/flow/surfaces.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"

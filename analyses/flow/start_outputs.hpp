@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "analyses/flow/jumps.hpp"
-#include "analyses/flow/plain_outputs.hpp"
+#include "analyses/flow/outputs/plain_outputs.hpp"
+#include "analyses/flow/step/jumps.hpp"
 #include "analyses/flow/task.hpp"
 
 namespace gamut {

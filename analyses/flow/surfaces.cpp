@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "analyses/flow/error_bounds.hpp"
-#include "analyses/flow/outputs.hpp"
+#include "analyses/flow/outputs/outputs.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/program/linear_form.hpp"

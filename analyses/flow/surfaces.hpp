@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "analyses/flow/formulation.hpp"
-#include "analyses/flow/monomials.hpp"
-#include "analyses/flow/set.hpp"
+#include "analyses/flow/series/monomials.hpp"
+#include "analyses/flow/step/set.hpp"
 
 namespace gamut {
 

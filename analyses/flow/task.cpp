@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analyses/flow/formulation.hpp"
+#include "analyses/flow/outputs/plain_outputs.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {

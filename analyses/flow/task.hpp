@@ -10,11 +10,11 @@
 
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/flow.hpp"
-#include "analyses/flow/jumps.hpp"
-#include "analyses/flow/monomials.hpp"
-#include "analyses/flow/scales.hpp"
-#include "analyses/flow/step.hpp"
-#include "analyses/flow/time_kinks.hpp"
+#include "analyses/flow/series/monomials.hpp"
+#include "analyses/flow/step/jumps.hpp"
+#include "analyses/flow/step/scales.hpp"
+#include "analyses/flow/step/step.hpp"
+#include "analyses/flow/step/time_kinks.hpp"
 
 namespace gamut {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 
 namespace gamut {
 

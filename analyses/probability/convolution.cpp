@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/work.hpp"
 #include "scalars/interval.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/normal_distribution.hpp"
 #include "analyses/probability/normal_grid.hpp"
 #include "analyses/probability/quantity_masses.hpp"

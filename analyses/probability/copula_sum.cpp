@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/probability/copula_masses.hpp"
 #include "analyses/probability/normal_grid.hpp"
 #include "analyses/work.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
 #include "scalars/interval.hpp"

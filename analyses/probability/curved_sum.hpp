@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "analyses/flow/monomials.hpp"
+#include "analyses/flow/series/monomials.hpp"
 
 namespace gamut {
 

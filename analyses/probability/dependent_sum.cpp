@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/work.hpp"
 
 namespace gamut {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/probability/binned_polynomial.hpp"
 #include "analyses/probability/dependent_sum.hpp"
 #include "analyses/probability/quantity_masses.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/normal_distribution.hpp"
 
 namespace gamut {

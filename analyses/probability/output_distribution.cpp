@@ -12,8 +12,8 @@
 #include <optional>
 #include <utility>
 
-#include "analyses/flow/error_bounds.hpp"
-#include "analyses/flow/polynomial_range.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
+#include "analyses/flow/series/polynomial_range.hpp"
 #include "analyses/probability/curved_sum.hpp"
 #include "analyses/probability/quantity_masses.hpp"
 #include "analyses/work.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/work.hpp"
 
 namespace gamut {

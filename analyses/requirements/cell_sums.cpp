@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/probability/curved_sum.hpp"
 #include "analyses/requirements/cells.hpp"
 #include "scalars/elementary/rounding.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "analyses/flow/models.hpp"
-#include "analyses/flow/polynomial_range.hpp"
+#include "analyses/flow/series/polynomial_range.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"

@@ -245,7 +245,7 @@ class SidesOfMotion {
       Q.push_back(-Real(side) * here[v]);
       if (!(P.back() > 0) || !(Q.back() > 0)) return false;
     }
-    Real share(0.0), duration(0.0);  // as analyses/flow/settling.cpp has them
+    Real share(0.0), duration(0.0);  // as analyses/flow/step/settling.cpp has them
     for (const std::size_t away : {0U, 2U}) {
       const Real own = sqrt(Q[away + 1] * P[away] / (Q[away] * P[away + 1]));
       share = std::max(share, own);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "analyses/flow/polynomial_range.hpp"
+#include "analyses/flow/series/polynomial_range.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "analyses/flow/error_bounds.hpp"
-#include "analyses/flow/polynomial_range.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
+#include "analyses/flow/series/polynomial_range.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {

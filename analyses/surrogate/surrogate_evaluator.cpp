@@ -9,7 +9,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 
 namespace gamut {
 

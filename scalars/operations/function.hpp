@@ -1,6 +1,6 @@
 // What an elementary function of programs says of itself, in a file of its name in this folder: with a twin that is
 // always computed with it, in one of both names. What flows need to know of it besides stands in a file of the same
-// name in analyses/flow/operations.
+// name in analyses/flow/series/operations.
 #pragma once
 
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <limits>
 #include <new>
 
-#include "analyses/flow/plain_outputs.hpp"
+#include "analyses/flow/outputs/plain_outputs.hpp"
 #include "analyses/samples/sampling.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/program/recorder.hpp"

@@ -3,7 +3,7 @@
 // they.
 #include <cmath>
 
-#include "analyses/flow/jumps.hpp"
+#include "analyses/flow/step/jumps.hpp"
 #include "tests/analyses/flow/containment.hpp"
 #include "tests/analyses/sliding_reference.hpp"
 

@@ -2,7 +2,7 @@
 // against its series in 128 bits, and the same motion in units far apart.
 #include <cmath>
 
-#include "analyses/flow/growth.hpp"
+#include "analyses/flow/step/growth.hpp"
 #include "tests/analyses/flow/containment.hpp"
 
 namespace gamut::testing {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analyses/flow/models.hpp"
-#include "analyses/flow/monomials.hpp"
+#include "analyses/flow/series/monomials.hpp"
 
 namespace gamut {
 namespace {

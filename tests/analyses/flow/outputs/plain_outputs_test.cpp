@@ -1,0 +1,48 @@
+// Outputs by plain intervals: nothing is claimed where they may have no value.
+#include "analyses/flow/outputs/plain_outputs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scalars/recorded.hpp"
+
+namespace gamut {
+namespace {
+
+/// y is exactly 0 and x < 0: the angle is π, though any multiple of y is 0.
+TEST(PlainOutputs, DoNotTakeTheNegativeAxisForThePositiveOne) {
+  PlainOutputs outputs(record(2, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = atan2(x[0], x[1]); }));
+  for (const Interval& x : {Interval(-1.0), Interval(-1.1), Interval(-2.0, -1.0), Interval(-1.0, 0.0)})
+    EXPECT_TRUE(contains(outputs.over(0, 0.0, {Interval(0.0), x}, {}), std::numbers::pi)) << x;
+  EXPECT_TRUE(isEqual(outputs.over(0, 0.0, {Interval(0.0), Interval(1.0, 2.0)}, {}), Interval(0.0)));
+  EXPECT_LT(magnitude(outputs.over(0, 0.0, {Interval(-1e-9, 1e-9), Interval(-2.0, -1.0)}, {})), 3.1416);
+}
+
+/// Bounds of the greater are the greater bounds, nested ones too, however the two are written.
+TEST(PlainOutputs, OfExtremesAreThoseOfTheExtreme) {
+  PlainOutputs outputs(record(2, 1, 7, [](auto t, const auto& x, const auto& p, auto& y) {
+    y[0] = max(x[0], x[1]);
+    y[1] = min(x[0], Recorded(0.25));
+    y[2] = max(x[0], Recorded(0.0));
+    y[3] = 1.0 - max(2.0 * x[0], -x[1] * p[0]);
+    y[4] = min(max(x[0], x[1]), p[0] + t);
+    y[5] = max(sqrt(x[1]), x[0]);
+    y[6] = max(-x[0], sin(x[1]) * 0.0 - p[0]);
+  }));
+  const std::vector<Interval> x{Interval(-1.0, 1.0), Interval(0.5, 3.0)}, p{Interval(2.0)};
+  const auto over = [&](int output) { return outputs.over(output, Interval(0.0, 0.5), x, p); };
+  EXPECT_TRUE(isEqual(over(0), Interval(0.5, 3.0)));
+  EXPECT_TRUE(isEqual(over(1), Interval(-1.0, 0.25)));
+  EXPECT_TRUE(isEqual(over(2), Interval(0.0, 1.0)));
+  EXPECT_TRUE(isEqual(over(3), Interval(-1.0, 3.0)));
+  EXPECT_TRUE(isEqual(over(4), Interval(0.5, 2.5)));
+  EXPECT_TRUE(isSubset(Interval(std::sqrt(0.5), std::sqrt(3.0)), over(5)));
+  EXPECT_LT(over(5).upper(), 1.7321);
+  EXPECT_TRUE(isEqual(over(6), Interval(-1.0, 1.0)));
+  EXPECT_TRUE(isEqual(outputs.over(5, 0.0, {Interval(0.0), Interval(-1.0, 1.0)}, p), Interval::entire()));
+}
+
+}  // namespace
+}  // namespace gamut
