@@ -33,9 +33,9 @@ std::vector<Interval> FlowAsides::enclose(double t, const FlowPoint& point, cons
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.compute(t, 1.0);
-  series_.forgetJumps();
+  series_.kinks().forgetJumps();
   // The first bound of values that jump says where they may.
-  const bool isBounded = series_.tabulate(1.0) && (!series_.hasJumps() || series_.bound(away.data(), true)) &&
+  const bool isBounded = series_.tabulate(1.0) && (!series_.kinks().hasJumps() || series_.bound(away.data(), true)) &&
                          series_.bound(away.data(), true);
   std::vector<Interval> found(at(values_.outputs()), Interval::entire());
   const Box whole(at(layout_->symbols()), Interval(-1.0, 1.0));
@@ -47,7 +47,7 @@ std::vector<Interval> FlowAsides::enclose(double t, const FlowPoint& point, cons
     if (std::isfinite(radius)) found[o] = inflated(range_(polynomial.data(), whole, tolerance), radius);
   }
   if (!isBounded) series_.clear();
-  if (isBounded && !series_.hasKinks() && !series_.hasJumps()) return found;
+  if (isBounded && !series_.hasKinks() && !series_.kinks().hasJumps()) return found;
   if (!plain_) plain_.emplace(values_);  // knows more at kinks, and of the others where one has no value for some ξ
   const Box ranges = rangesOf(parameters);
   for (std::size_t o = 0; o < found.size(); ++o)

@@ -175,8 +175,8 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.compute(t, 1.0);
   std::fill(radius_.begin(), radius_.end(), std::numeric_limits<double>::infinity());
-  series_.forgetJumps();
-  if (!series_.tabulate(1.0) || (series_.hasJumps() && !series_.bound(radius.data(), true)) ||
+  series_.kinks().forgetJumps();
+  if (!series_.tabulate(1.0) || (series_.kinks().hasJumps() && !series_.bound(radius.data(), true)) ||
       !series_.bound(nullptr, true)) {
     series_.clear();
     return false;
@@ -334,13 +334,13 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const
   series_.setOrder(orderFor(stepper, part, dropped));
   for (int i = 0; i < n_; ++i) setState(i, part.states[at(i)], states.stride());
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
-  series_.forgetCrossings();
+  series_.kinks().forgetCrossings();
   timeKinks_.giveSides(parameters, t0 + part.from, t0 + part.to, series_);
   series_.compute(t0 + part.from, scale_);  // exact: docs/flow.md, "Time"
   std::vector<double> own(at(outputs_)), tube(at(n_));
   for (int i = 0; i < n_; ++i) tube[at(i)] = (stepper.tubeBound(i) + dropped[at(i)]) * bounds::up;
-  series_.forgetJumps();
-  if (!series_.tabulate(theta) || (series_.hasJumps() && !series_.bound(tube.data(), true)) ||
+  series_.kinks().forgetJumps();
+  if (!series_.tabulate(theta) || (series_.kinks().hasJumps() && !series_.bound(tube.data(), true)) ||
       !series_.bound(dropped.data(), true)) {
     series_.clear();
     return false;

@@ -29,7 +29,7 @@ class FlowOutputs {
   /// Whether plain intervals know what polynomials do not.
   bool hasKinks() const { return series_.hasKinks() || plain_.hasAngles(); }
   /// Whether they may be other just before and after a moment than at it.
-  bool hasJumps() const { return series_.hasJumps(); }
+  bool hasJumps() const { return series_.kinks().hasJumps(); }
   const std::shared_ptr<const Monomials>& monomials() const { return layout_; }
   const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
   double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }

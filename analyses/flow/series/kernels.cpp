@@ -217,13 +217,11 @@ GAMUT_INLINE void storeThin(const ThinNode* v, int count, int i, const double* c
   }
 }
 
-GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<const ThinSolution*>& solutions,
-                                const std::vector<std::pair<int, int>>& states, const std::vector<ThinSum>& frame,
-                                const ThinLeading& leading, int time, int order, double h0,
-                                std::vector<double>& current) {
+GAMUT_CLONES void thinRecursion(ThinProgram& program, int time, int order, double h0) {
+  const auto& [nodes, solutions, states, frame, leading, current, known] = program;
   const int count = static_cast<int>(nodes.size());
   const ThinNode* v = nodes.data();
-  double* cur = current.data();
+  double* cur = program.current.data();
   const int blocks = order / 16 + 1;
   Work::count(Work::coefficient, 2.0 * count * order * blocks);
   for (int i = 0; i < order; ++i) {

@@ -74,11 +74,19 @@ struct ThinSum {
   std::vector<std::pair<int, int>> terms;
 };
 
-/// Orders 1 … m-1 of all nodes and m of the states when order 0 is known: the recursion without symbols. `states` pairs
-/// a state with the node of its derivative; `current` has one number a node. Newest coefficients are kept aside and
-/// stored together behind an order: a vector load right behind a scalar store would stall.
-void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<const ThinSolution*>& solutions,
-                   const std::vector<std::pair<int, int>>& states, const std::vector<ThinSum>& frame,
-                   const ThinLeading& leading, int time, int order, double h0, std::vector<double>& current);
+/// A recursion without symbols: `states` pairs a state with the node of its derivative; `current` has one number a
+/// node, its order 0 at first.
+struct ThinProgram {
+  std::vector<ThinNode> nodes;
+  std::vector<const ThinSolution*> solutions;
+  std::vector<std::pair<int, int>> states;
+  std::vector<ThinSum> frame;
+  ThinLeading leading;
+  std::vector<double> current, known;  ///< known: orders of states that are given, [state][order]
+};
+
+/// Orders 1 … m-1 of all nodes and m of the states when order 0 is known. Newest coefficients are kept aside and stored
+/// together behind an order: a vector load right behind a scalar store would stall.
+void thinRecursion(ThinProgram& program, int time, int order, double h0);
 
 }  // namespace gamut::kernels

@@ -12,13 +12,17 @@
 #include <string>
 #include <vector>
 
+#include "analyses/flow/series/by_number.hpp"
 #include "analyses/flow/series/embedded.hpp"
 #include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/flow/series/fine_recursion.hpp"
 #include "analyses/flow/series/grade_kernels.hpp"
 #include "analyses/flow/series/kernels.hpp"
 #include "analyses/flow/series/linear_factors.hpp"
+#include "analyses/flow/series/m_matrix.hpp"
 #include "analyses/flow/series/monomials.hpp"
+#include "analyses/flow/series/series_kinks.hpp"
+#include "analyses/flow/series/series_plan.hpp"
 #include "analyses/flow/series/zeroed_numbers.hpp"
 #include "scalars/index.hpp"
 #include "scalars/interval.hpp"
@@ -37,6 +41,14 @@ struct SlopeQuotient;
 template <Op op, class... Equations>
 struct SlopeProducts;
 
+/// e0 + e1 (σ/θ)^m.
+struct SeriesError {
+  double e0 = 0, e1 = 0;
+
+  /// With what its own computation may have lost.
+  SeriesError up() const { return {e0 * bounds::up + bounds::tiny, e1 * bounds::up}; }
+};
+
 class PolynomialSeries {
  public:
   /// Nodes that the first `primaryOutputs` outputs need keep the monomials' full degree, all others `frameDegree`.
@@ -47,15 +59,15 @@ class PolynomialSeries {
   PolynomialSeries(const PolynomialSeries&) = delete;  // it points into itself
   PolynomialSeries(PolynomialSeries&&) = default;
 
-  int states() const { return n_; }
-  int stride() const { return stride_; }
-  const Monomials& monomials() const { return *monomials_; }
-  const std::shared_ptr<const Monomials>& sharedMonomials() const { return monomials_; }
+  int states() const { return plan_.states; }
+  int stride() const { return plan_.stride; }
+  const Monomials& monomials() const { return *plan_.monomials; }
+  const std::shared_ptr<const Monomials>& sharedMonomials() const { return plan_.monomials; }
   const std::atomic<bool>* cancelled() const { return cancelled_; }
-  int count() const { return monomials_->count(); }
+  int count() const { return plan_.monomials->count(); }
   /// So many monomials a node keeps, the first ones; of later orders fewer.
-  int count(int node) const { return plan_[at(node)].count; }
-  int frameCount() const { return frameCount_; }
+  int count(int node) const { return plan_[node].count; }
+  int frameCount() const { return plan_.frameCount; }
 
   /// Without a frame: how many orders the next computation keeps, at most as many as the constructor was told.
   /// No fewer than leastOrder. Forgets all coefficients where that changes, so that none is left beyond the last.
@@ -63,7 +75,7 @@ class PolynomialSeries {
   static constexpr int leastOrder = 4;
 
   /// For whoever asks for the series of nodes that are no outputs: of many monomials they are not kept else.
-  void keepEveryNode() { std::fill(isKept_.begin(), isKept_.end(), 1); }
+  void keepEveryNode() { std::fill(grades_.isKept.begin(), grades_.isKept.end(), 1); }
 
   /// Without symbols: so many first orders (2 at least) of the primary nodes have a second double each. Only where
   /// FineRecursion::isPossible.
@@ -71,7 +83,7 @@ class PolynomialSeries {
   bool isFine() const { return fine_.orders() > 0; }
   /// Of a node's order, the second double; 0 where there is none.
   double low(int node, int order) const { return order < fine_.orders() ? fine_.value(node, order).lo : 0.0; }
-  void setStateLow(int i, double low) { fine_.set(i, {f_[plan_[at(i)].f], low}); }
+  void setStateLow(int i, double low) { fine_.set(i, {leadingOf(i), low}); }
 
   // Inputs: coefficients of order 0 in σ.
   void setState(int i, const double* coefficients);                     // count() numbers
@@ -92,49 +104,28 @@ class PolynomialSeries {
   /// Likewise along the polynomial, as if parameters and constants were what their polynomials are: no bound of
   /// anything, but what is due to truncation and rounding.
   bool boundWithoutRadii();
-  /// Whether outputs themselves hold a sign, and, since forgetJumps, the bounds of a set found one that may be either
-  /// way there. From then on it counts so along the polynomial too: not as something that follows the states, but as an
-  /// input.
-  bool hasJumps() const { return !jumps_.empty(); }
-  bool hasJumped() const { return hasJumped_; }
-  void forgetJumps();
-  bool hasKinks() const { return hasKinks_; }
-  /// The signs in outputs themselves, in the program's order. `mayTurn`: on the set bounded last it may be either.
-  const std::vector<int>& jumps() const { return jumps_; }
-  bool mayTurn(int jump) const { return reached_[at(plan_[at(jump)].a)] > 0; }
-  /// The sign, or means of it, until forgetCrossings, as for the next computations. Its argument asks for no haste
-  /// then, and where that is nowhere on one side, |u| and its derivative are those of the other. The polynomials take
-  /// `about` for it.
-  void giveSign(int jump, const Interval& sign, const Interval& argument, double about);
-  /// Whether along the polynomial the sign, or |u|, counts as what it is there, since its push is reckoned apart.
-  void setApart(int node, bool isApart) { isApart_[at(node)] = static_cast<char>(isApart); }
-  /// What all solutions pass in the step: the next computations take |u| as `side` times u, 1 or -1, until
-  /// forgetCrossings. False if they did already.
-  bool passKink(int kink, double side) { return noteSide(passed_, kink, side); }
-  /// On which side u is for all solutions in the step, until forgetCrossings; of |u| and of sign u. False if that is
-  /// known.
-  bool giveSide(int kink, double side);
-  /// What they take for the sign, or for the slope of |u|.
-  double slopeOf(int node) const {
-    return plan_[at(node)].op == Op::abs ? chords_[at(node)].slope : f_[plan_[at(node)].f];
-  }
+  /// What is known of kinks; those of a set bounded are what these bounds found.
+  SeriesKinks& kinks() { return kinks_; }
+  const SeriesKinks& kinks() const { return kinks_; }
+  bool hasKinks() const { return plan_.hasKinks; }
+  /// What polynomials take for a sign, or for the slope of |u|.
+  double slopeOf(int node) const { return plan_[node].op == Op::abs ? kinks_[node].chord.slope : leadingOf(node); }
   /// Where state i is while |x - x̃| ≤ error.
   Interval rangeOf(int i, double error) const;
-  /// What the next computations take of those that the set bounded last may cross: chords over all that it reaches, and
-  /// 0 for a sign in outputs themselves. False if none are crossed. Until forgetCrossings.
-  bool adaptToCrossings();
   /// The symbol that decides most about when these are crossed; -1 if none does more than what is uncertain besides.
   int symbolAcross() const;
-  void forgetCrossings();
   /// The set bounded last is that at the start of the step: so much is uncertain of where it crosses kinks.
-  void keepAtStart() { atStart_ = rho0_; }
+  void keepAtStart();
   /// The bounds are those along the polynomial: from then on what is between it and the set bounded last can be told.
-  void keepAlong();
-  /// The mean of ρ0 (ρ1) on the way from the polynomial to any point of the set bounded last: bounds are convex in E
+  void keepAlong() { along_ = rho_; }
+  /// The mean of ρ0 and ρ1 on the way from the polynomial to any point of the set bounded last: bounds are convex in E
   /// and in the inputs' radii, sums and products of convex functions, but for tanh, abs and sign; so no more than half
   /// way between.
-  double meanRho0(int node) const { return mean(along0_, rho0_, node); }
-  double meanRho1(int node) const { return mean(along1_, rho1_, node); }
+  SeriesError meanRho(int node) const {
+    const SeriesError& there = rho_[node];
+    if (!plan_.isConvex || along_.empty()) return there;
+    return {0.5 * (along_[node].e0 + there.e0), 0.5 * (along_[node].e1 + there.e1)};
+  }
 
   /// How many times too long [0, θ] is for what is left unsaid by ρ1: a tanh whose argument moves so far that rounding
   /// grows, or that nothing but its range is known. Not above 1: time is not what moves it.
@@ -147,29 +138,29 @@ class PolynomialSeries {
 
   // Results. Node numbers are those of the program; frame entries are separate. Of many monomials only series of
   // inputs, outputs and factors are kept.
-  const double* series(int node) const { return &f_[plan_[at(node)].f]; }
-  const double* frame(int i, int j) const { return &f_[plan_[at(frameNode(i, j))].f]; }
-  int outputNode(int output) const { return outputs_[at(output)]; }
-  double norm(int node) const { return norm_[at(node)]; }
+  const double* series(int node) const { return series(plan_[node]); }
+  const double* frame(int i, int j) const { return series(plan_.frameNode(i, j)); }
+  int outputNode(int output) const { return plan_.outputs[at(output)]; }
+  double norm(int node) const { return norm_[node]; }
   /// What the second doubles of a state's series hold, at most.
-  double lowNorm(int state) const { return isFine() ? 2 * bounds::unit * norm_[at(state)] : 0.0; }
+  double lowNorm(int state) const { return isFine() ? 2 * bounds::unit * norm_[state] : 0.0; }
   /// What the roundings in x_{i+1} = f_i h0 / (i+1) add to the defect of state i.
   double slopeRounding(int i) const;
   /// Whether of some node more than this share of its norm is mass of the two highest grades.
   bool reachesHighestGrades(double share) const;
-  double rho0(int node) const { return rho0_[at(node)]; }
-  double rho1(int node) const { return rho1_[at(node)]; }
+  double rho0(int node) const { return rho_[node].e0; }
+  double rho1(int node) const { return rho_[node].e1; }
   /// Σ i!/(i-k)! |c_{iα}| θ^{i-k}: a bound of the k-th derivative by σ over [0, θ], with the order that only states
   /// keep.
-  double derivativeNorm(int node, int k, double theta) const { return derivativeNorm(plan_[at(node)], k, theta); }
+  double derivativeNorm(int node, int k, double theta) const { return derivativeNorm(plan_[node], k, theta); }
   double frameDerivativeNorm(int i, int j, int k, double theta) const {
-    return derivativeNorm(plan_[at(frameNode(i, j))], k, theta);
+    return derivativeNorm(plan_[plan_.frameNode(i, j)], k, theta);
   }
   /// How far a node's polynomial leaves its chord between two times σ of [0, θ], for every ξ, downwards and upwards.
   /// `second` and `third` are its derivativeNorms; `more` is added to the bound of its second derivative.
   Interval sag(int node, double from, double to, double second, double third, double more) const;
   /// Σ_α |c_{mα}| θ^m of state i: its last order.
-  double top(int state) const { return top_[at(state)]; }
+  double top(int state) const { return top_[state]; }
   /// |∂f_i/∂x_j| on the set that was bounded last.
   double jacobianBound(int i, int j) const;
   /// ∂f_i/∂x_i there at most.
@@ -177,11 +168,11 @@ class PolynomialSeries {
   /// A number about which ∂f_i/∂x_j is there, and by how much it may differ, over θ of the scale.
   double jacobianCentre(int i, int j, double theta, double& spread) const;
   /// |Ψ̃' - (∂f/∂x)Ψ̃|_{ij} ≤ ν0 + ν1 (σ/θ)^m on the set that was bounded last.
-  void frameDefect(int i, int j, double& nu0, double& nu1) const;
+  SeriesError frameDefect(int i, int j) const;
   /// ‖Ψ̃_ij‖, and of what depends on ξ: ‖ṽ‖ and ‖Ψ̃_ij‖ without the grade 0.
-  double frameNorm(int i, int j) const { return norm_[at(frameNode(i, j))] + top_[at(frameNode(i, j))]; }
+  double frameNorm(int i, int j) const { return norm_[plan_.frameNode(i, j)] + top_[plan_.frameNode(i, j)]; }
   double variation(int node) const;
-  double frameVariation(int i, int j) const { return variation(frameNode(i, j)); }
+  double frameVariation(int i, int j) const { return variation(plan_.frameNode(i, j)); }
   /// Forgets all coefficients; needed after they became infinite.
   void clear();
 
@@ -195,27 +186,27 @@ class PolynomialSeries {
   template <Op op, class... Equations>
   friend struct SlopeProducts;
 
+  /// What a recursion by grades works with.
+  struct ByGrades {
+    /// left·right is part of target; isSlope: of its derivative by time, j·left_j.
+    struct Product {
+      int left, right, target;
+      bool isSlope;
+    };
+    std::vector<Product> products;
+    std::vector<int> targets;
+    ByNumber<char> isKept;               // whether a node's coefficients are
+    std::vector<double> sums, weighted;  // Σ|c_{iα}| by grade and order as t_; Σ ∏(α_l+1)|c_{iα}| by order
+    std::vector<double> lanes, slopes, frameLanes;  // of the monomials carried on together, [node][order]
+    ByNumber<std::size_t> slopeAt;                  // where a node's j·(order j) begins
+    ZeroedNumbers frameProducts;
+  };
+
   static constexpr std::size_t at(int i) { return detail::at(i); }
-  int last() const { return withFrame_ ? m_ : m_ - 1; }  // the highest order that any node keeps
+  int last() const { return plan_.withFrame ? m_ : m_ - 1; }  // the highest order that any node keeps
   void goOnUnlessCancelled() const {
     if (cancelled_ != nullptr && cancelled_->load(std::memory_order_relaxed)) throw Cancelled();
   }
-  int frameNode(int i, int j) const { return nodes_ + i * n_ + j; }
-
-  struct Plan {
-    Op op;
-    int a, b;
-    int degree, count;
-    bool primary, invariant, constant;
-    std::size_t f = 0, r = none, d = none, t = 0, s2 = none, beyond = none, z = none;
-    bool needsTails = false;
-  };
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-  /// Of an order in time, no higher grades than these are computed; states have those of an order before, of x' = v of
-  /// one before that.
-  int gradeOf(int order) const { return grades_[at(order)]; }
-  int countOf(const Plan& v, int order) const { return std::min(v.count, counts_[at(order)]); }
 
   /// The systems of one matrix A.
   struct System {
@@ -226,7 +217,7 @@ class PolynomialSeries {
     std::vector<double> norms;                 // ‖C‖
     std::vector<double> defects;               // Σ_α |(I - C Ã)_{oα}| at least, entry by entry, [order]
     std::vector<double> own;                   // ‖I - C Ã‖
-    std::vector<double> amplifier;             // ≥ (I - H)⁻¹ |C| on the set that was bounded last
+    Amplifier amplifier;                       // ≥ (I - H)⁻¹ ‖C‖ on the set that was bounded last
     double multipliedFor;  // the greatest θ at which defects were chosen since the last computation; 0: no C so far
     bool isFactorised, isBounded;
     bool isFine = false;  // factorised by the fine recursion
@@ -240,50 +231,54 @@ class PolynomialSeries {
     std::vector<double> residual;  // Σ_α |s - A₀ x| of A₀ x = s, [order][component]
   };
 
-  /// |a| ≈ slope a + middle.
-  struct Chord {
-    double slope = 0, middle = 0;
-    bool isExact() const { return (slope == 1 || slope == -1) && middle == 0; }  // where u stays on one side
-  };
-  bool noteSide(std::vector<double>& sides, int kink, double side);
-  Chord chordOf(int node) const;
+  SeriesKinks::Chord chordOf(int node) const;
   double signOf(int node) const;
   /// Order i of monomial g, in the copies for right factors too.
-  void put(const Plan& v, int g, int i, double value) {
-    f_[v.f + at(g * stride_ + i)] = value;
-    if (v.r == none) return;
-    r_[v.r + at(g * kernels::paddedStride(stride_) + (isByGrades_ ? kernels::padding(stride_) + i : stride_ - 1 - i))] =
-        value;
-    if (g == 0 && v.z != none) z_[v.z + at(stride_ - 1 - i)] = value;
+  void put(const SeriesNode& v, int g, int i, double value) {
+    series(v, g)[i] = value;
+    if (v.r == SeriesNode::none) return;
+    r_[v.r + at(g * kernels::paddedStride(stride()) +
+                (plan_.isByGrades ? kernels::padding(stride()) + i : stride() - 1 - i))] = value;
+    if (g == 0 && v.z != SeriesNode::none) z_[v.z + at(stride() - 1 - i)] = value;
   }
-  double mean(const std::vector<double>& along, const std::vector<double>& there, int node) const {
-    return isConvex_ && !along.empty() ? 0.5 * (along[at(node)] + there[at(node)]) : there[at(node)];
-  }
-  double orderNorm(const Plan& v, int i) const;
-  double derivativeNorm(const Plan& v, int k, double theta) const;
+  /// Where a monomial's coefficients begin, and j times order j; a grade's sizes.
+  double* series(const SeriesNode& v, int g = 0) { return &f_[v.f + at(g * stride())]; }
+  const double* series(const SeriesNode& v, int g = 0) const { return &f_[v.f + at(g * stride())]; }
+  double* slopes(const SeriesNode& v, int g = 0) { return &d_[v.d + at(g * stride())]; }
+  const double* slopes(const SeriesNode& v, int g = 0) const { return &d_[v.d + at(g * stride())]; }
+  double leadingOf(int node) const { return f_[plan_[node].f]; }
+  double* mass(const SeriesNode& v, int q = 0) { return &t_[v.t + at(q * stride())]; }
+  const double* mass(const SeriesNode& v, int q = 0) const { return &t_[v.t + at(q * stride())]; }
+  double orderNorm(const SeriesNode& v, int i) const;
+  double derivativeNorm(const SeriesNode& v, int k, double theta) const;
   void computeOrder(int node, int i);
-  void clearOrder(const Plan& v, int i);
-  const double* convolved(const Plan& v, int i, const double* left, const Plan& right, std::vector<double>& out);
-  const double* putSlope(const Plan& v, int i);
+  void clearOrder(const SeriesNode& v, int i);
+  double* convolved(const SeriesNode& v, int i, const double* left, const SeriesNode& right);
+  const double* putSlope(const SeriesNode& v, int i);
   const double* divided(int node, int i, const double* numerator);
   /// Order i > 0 of what is a quotient by a leading polynomial; its own order i counts as zero in the sum of
   /// left_j right_{i-j}. isOfSlopes: `left` are its slopes.
   template <bool isOfSlopes, class Numerator>
-  void putQuotient(int node, int i, const double* left, const Plan& right, const Numerator& numerator) {
-    const Plan& v = plan_[at(node)];
+  void putQuotient(int node, int i, const double* left, const SeriesNode& right, const Numerator& numerator) {
+    const SeriesNode& v = plan_[node];
     clearOrder(v, i);
-    const int N = countOf(v, i);
+    const int N = plan_.countOf(v, i);
     if (isOfSlopes)
-      for (int g = 0; g < N; ++g) d_[v.d + at(g * stride_ + i)] = 0.0;
-    convolved(v, i, left, right, scratch_);
-    for (int g = 0; g < N; ++g) scratch_[at(g)] = numerator(g, scratch_[at(g)]);
-    const double* quotient = divided(node, i, scratch_.data());
+      for (int g = 0; g < N; ++g) slopes(v, g)[i] = 0.0;
+    double* sum = convolved(v, i, left, right);
+    for (int g = 0; g < N; ++g) sum[g] = numerator(g, sum[g]);
+    const double* quotient = divided(node, i, sum);
     for (int g = 0; g < N; ++g) {
       put(v, g, i, quotient[g]);
-      if (isOfSlopes) d_[v.d + at(g * stride_ + i)] = i * quotient[g];
+      if (isOfSlopes) slopes(v, g)[i] = i * quotient[g];
     }
   }
-  void product(const Plan& a, const Plan& b, int count, int i, double* out);
+  /// out[g] += order i of left·right, of the first `count` monomials.
+  void convolve(int count, const double* left, const SeriesNode& right, int i, double* out) const {
+    kernels::convolve(monomials().pairs().data(), monomials().first().data(), count, left, &r_[right.r], stride(), i,
+                      out);
+  }
+  void product(const SeriesNode& a, const SeriesNode& b, int count, int i, double* out);
   void computeFrameOrder(int i, double h0);
   void prepareThin();
   void computeLeadingValue(int node);
@@ -299,14 +294,14 @@ class PolynomialSeries {
   void computeLane(int node, int i, int q);
   void computeSolutionLanes(int first, int i);
   void computeFrameLanes(int i, double h0);
-  const double* slope(int node) const { return &d_[plan_[at(node)].d]; }
-  const double* slopeLane(int node) const { return &slopes_[slopeAt_[at(node)]]; }
-  double* lane(int node, int i) { return &lanes_[at((node * stride_ + i) * kernels::lanes)]; }
+  const double* slope(int node) const { return slopes(plan_[node]); }
+  const double* slopeLane(int node) const { return &grades_.slopes[grades_.slopeAt[node]]; }
+  double* lane(int node, int i) { return &grades_.lanes[at((node * stride() + i) * kernels::lanes)]; }
 
   void computeLeading(double t0, double h0);
-  bool isFine(int node) const { return fine_.orders() > 0 && node < nodes_ && plan_[at(node)].primary; }
+  bool isFine(int node) const { return fine_.orders() > 0 && node < plan_.ofProgram && plan_[node].primary; }
   /// What is between a node and its first doubles.
-  double lowOf(int node) const { return isFine(node) ? 2 * bounds::unit * norm_[at(node)] : 0.0; }
+  double lowOf(int node) const { return isFine(node) ? 2 * bounds::unit * norm_[node] : 0.0; }
   double coarseNorm(int node, int from) const;
   double coarseProduct(int a, int b, int from) const;
   double productRounding(int node, int a, int b, int from, double coarse) const;
@@ -314,18 +309,18 @@ class PolynomialSeries {
   template <int least = 1, class Term>
   double sumOverPairs(int g, const Term& term) const {
     double sum = 0;
-    for (auto q = monomials_->first()[at(g)]; q < monomials_->first()[at(g) + 1]; ++q)
-      if (const auto [p, r] = monomials_->pairs()[at(q)]; p >= least) sum += term(p, r);
+    for (auto q = monomials().first()[at(g)]; q < monomials().first()[at(g) + 1]; ++q)
+      if (const auto [p, r] = monomials().pairs()[at(q)]; p >= least) sum += term(p, r);
     return sum;
   }
-  const double* invertLeading(int node, const Plan& b);
-  bool tabulateNorms(std::size_t x, double last);
-  void tabulateTails(std::size_t x);
+  const double* invertLeading(int node, const SeriesNode& b);
+  bool tabulateNorms(int x, double last);
+  void tabulateTails(int x);
   double tailTime(int a, int b) const;
   double tailDegree(int a, int b, int degree, int fromOrder) const;
   double tailRow(int a, int b, int degree) const;
   double sumRounding(int node) const;
-  void productErrors(int node, int a, int b, double& e0, double& e1) const;
+  SeriesError productErrors(int node, int a, int b) const;
   void ownErrors(int node);
   template <class Term>
   double sumOverProducts(int left, int right, bool isSlope, const Term& term);
@@ -333,35 +328,28 @@ class PolynomialSeries {
   double quotientResidual(int node);
   double dropped(int a, int degree) const;
   double minimum(int node) const;
-  /// ρ0 and ρ1 of a node; of operands, as one sees them that knows their second doubles, or does not.
-  struct Errors {
-    double e0 = 0, e1 = 0;
-  };
+  /// ρ0 and ρ1 of operands, as one sees them that knows their second doubles, or does not.
   struct Operands {
     const PolynomialSeries& of;
     bool seesLow;
-    double r0(int i) const { return of.rho0_[at(i)] + (seesLow ? 0.0 : of.lowOf(i)); }
-    double r1(int i) const { return of.rho1_[at(i)]; }
+    double r0(int i) const { return of.rho_[i].e0 + (seesLow ? 0.0 : of.lowOf(i)); }
+    double r1(int i) const { return of.rho_[i].e1; }
     double r(int i) const { return r0(i) + r1(i); }
   };
-  Errors differentialErrors(int u, int of, int degree) const;
+  SeriesError differentialErrors(int u, int of, int degree) const;
   bool boundNode(int node);
-  bool isBelowLargest(int node) const { return rho0_[at(node)] + rho1_[at(node)] < bounds::largest; }
-  bool setBounds(int node, const Errors& z) {
-    rho0_[at(node)] = z.e0 * bounds::up + bounds::tiny;
-    rho1_[at(node)] = z.e1 * bounds::up;
+  bool isBelowLargest(int node) const { return rho_[node].e0 + rho_[node].e1 < bounds::largest; }
+  bool setBounds(int node, const SeriesError& z) {
+    rho_[node] = z.up();
     return isBelowLargest(node);
   }
-  void boundAbs(int node);
-  void boundSign(int node);
   bool mayCross(int u);
-  bool isNothing(const Plan& sum) const;
-  bool isGraded() const { return monomials_->degree() > 0; }
-  double leading(int node) const { return std::fabs(f_[plan_[at(node)].f]); }
+  bool isNothing(const SeriesNode& sum) const;
+  bool isGraded() const { return monomials().degree() > 0; }
+  double leading(int node) const { return std::fabs(leadingOf(node)); }
   double rest(int node) const;
   double moved(int node) const;
   double weightedRest(int node) const;
-  bool isKnownZero(int node) const;
 
   // polynomial_systems.cpp; `first` is component 0 of a solution.
   void planSystems(const Program& program);
@@ -373,73 +361,37 @@ class PolynomialSeries {
   void multiplyByInverse(System& system);
   std::vector<int> gradesToMultiply(const System& system);
   double* massFrom(const System& system, int grade, int k, int j) {
-    return &mass_[at(((grade * system.size + k) * system.size + j) * stride_)];
+    return &mass_[at(((grade * system.size + k) * system.size + j) * stride())];
   }
   void tabulateSystem(System& system);
   void solutionOwnErrors(int first);
-  double contraction(const System& system);
   bool boundSystem(System& system);
   bool boundSolution(int first);
   bool refuse(int node);
   std::string edgeOf(int node) const;
 
-  std::vector<char> primaryOf(const Program& program, int primaryOutputs) const;
-  void planOrders(int order);
-  void planNodes(const Program& program, const std::vector<char>& primary);
-  void planFactors();
   void putConstants();
 
-  int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
-  std::vector<int> grades_, counts_;  // of orders
-  bool isCut_ = false;                // not all of them the same
-  bool isByGrades_ = false;           // the recursion goes by grades, not by orders
-  int obstacle_ = 0;                  // the node that failed
+  const SeriesPlan plan_;
+  int m_;
+  int obstacle_ = 0;  // the node that failed
   double haste_ = 0;
-  bool withFrame_, isConvex_ = true;
   const std::atomic<bool>* cancelled_;
-  std::shared_ptr<const Monomials> monomials_;
-  std::vector<Plan> plan_;
-  std::vector<int> outputs_;
-  std::vector<double> constant_, radius_, pointError_;
-  std::vector<char> varies_;                          // of each parameter
-  std::vector<Chord> chords_;                         // of each abs
-  std::vector<int> jumps_;                            // signs in outputs themselves
-  std::vector<double> jump_;                          // radius of each sign
-  std::vector<std::optional<Interval>> given_;        // of each sign, what it is
-  std::vector<double> about_;                         // and what polynomials take for it
-  std::vector<char> isApart_;                         // of each sign and |u|: its push is reckoned apart
-  std::vector<char> isSided_;                         // of each |u|, bounded last: u is on one side
-  std::vector<char> isCalm_;                          // arguments of those: they need no haste
-  std::vector<double> passed_;                        // of each argument, whose kink all pass: the side they come from
-  std::vector<double> side_;                          // of each argument, if known for all solutions: 1, -1
-  std::vector<double> atStart_, crossing_, reached_;  // of each argument: uncertain; what a chord spans; may have to
-  bool hasKinks_ = false, hasJumped_ = false, isAlong_ = false, knowsParameters_ = false;
+  SeriesKinks kinks_;
+  bool isAlong_ = false, knowsParameters_ = false;
+  ByNumber<double> radius_;   // of constants and parameters
+  std::vector<char> varies_;  // of each parameter
+  // In the plan's places.
   ZeroedNumbers f_, r_, d_;
-  std::vector<double> t_, total_, s1_, s2_, beyond_, from_, scratch_, scratch2_;
-  std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
-  std::vector<std::size_t> inverseAt_;
-  std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, along0_, along1_, top_;
+  std::vector<double> t_, s2_, beyond_, inverse_, z_;
+  std::vector<double> total_, s1_, from_, scratch_, scratch2_;
+  ByNumber<double> norm_, weighted_, pointError_, top_;
+  ByNumber<SeriesError> own_, rho_, along_;
   std::vector<double> power_, weights_;
-  std::vector<kernels::ThinNode> thin_;  // of the coefficients of 1: the recursion's own view of the plan
-  std::vector<std::pair<int, int>> thinStates_;
-  std::vector<kernels::ThinSum> thinFrame_;
-  std::vector<const kernels::ThinSolution*> thinSolutions_;
-  std::vector<double> current_;
-  /// By grades: left·right is part of target; isSlope: of its derivative by time, j·left_j.
-  struct Product {
-    int left, right, target;
-    bool isSlope;
-  };
-  std::vector<Product> products_;
-  std::vector<int> targets_;
-  std::vector<char> isKept_;                 // of each node: whether its coefficients are
-  std::vector<double> sums_, weightedSums_;  // Σ|c_{iα}| by grade and order as t_; Σ ∏(α_l+1)|c_{iα}| by order
-  std::vector<double> lanes_, slopes_, frameLanes_;  // of the monomials that are carried on together, [node][order]
-  std::vector<std::size_t> slopeAt_;                 // of each node with such, j·its order j
-  ZeroedNumbers frameProducts_;
-  std::vector<double> known_, z_, residual_;  // z_: right factors' grade 0, reversed
+  kernels::ThinProgram thin_;  // of the coefficients of 1: the recursion's own view of the plan
+  ByGrades grades_;
+  std::vector<double> residual_;
   FineRecursion fine_;
-  kernels::ThinLeading leading_;
   std::vector<System> systems_;
   std::vector<Solution> solutions_;
   static constexpr int inverseOrder = 3;  // of C in time; in ξ it is linear
@@ -448,7 +400,7 @@ class PolynomialSeries {
   std::vector<int> shift_;                         // number of ξ_symbol·(monomial g), [symbol][g]
   int largestSystem_ = 0;
   std::vector<double> mass_;  // Σ_{grade ≥ q} |Ã| of the system at hand, [grade][entry][order]
-  std::vector<double> rightSides_, combination_, amplified_, amplified2_, vector_, vector2_, vector3_;
+  std::vector<double> rightSides_, combination_, vector_, vector2_;
 };
 
 }  // namespace gamut

@@ -28,9 +28,8 @@ void PolynomialSeries::planSystems(const Program& program) {
         for (int j = 0; j < n; ++j)
           system.entries.push_back(solution.transposed ? matrix.entry(j, i) : matrix.entry(i, j));
       system.own.assign(at(n * n), 0.0);
-      system.defects.assign(at(n * n * kernels::reversedStride(stride_)), 0.0);
+      system.defects.assign(at(n * n * kernels::reversedStride(stride())), 0.0);
       system.norms.assign(at(n * n), 0.0);
-      system.amplifier.assign(at(n * n), 0.0);
       systems_.push_back(std::move(system));
     }
     solutions_.push_back({number, solution.rightSide, {}, std::vector<double>(at(matrix.size * m_), 0.0)});
@@ -38,83 +37,79 @@ void PolynomialSeries::planSystems(const Program& program) {
   }
   if (systems_.empty()) return;
   for (int order = 0; order <= std::min(inverseOrder, m_ - 1); ++order) inverseTerms_.emplace_back(order, -1);
-  for (int symbol = 0; symbol < monomials_->symbols(); ++symbol) {
-    if (monomials_->linear(symbol) >= 0) inverseTerms_.emplace_back(0, symbol);
-    for (int g = 0; g < count(); ++g) shift_.push_back(monomials_->shifted(g, symbol, 1));
+  for (int symbol = 0; symbol < monomials().symbols(); ++symbol) {
+    if (monomials().linear(symbol) >= 0) inverseTerms_.emplace_back(0, symbol);
+    for (int g = 0; g < count(); ++g) shift_.push_back(monomials().shifted(g, symbol, 1));
   }
-}
-
-bool PolynomialSeries::isKnownZero(int node) const {
-  return plan_[at(node)].constant && constant_[at(node)] == 0 && radius_[at(node)] == 0;
 }
 
 /// How many entries of a row of A are not known zeros.
 int PolynomialSeries::termsIn(const System& system, int row) const {
   int count = 0;
-  for (int j = 0; j < system.size; ++j) count += !isKnownZero(system.entry(row, j));
+  for (int j = 0; j < system.size; ++j) count += !plan_[system.entry(row, j)].isZero;
   return count;
 }
 
 void PolynomialSeries::factorise(System& system) {
   std::vector<double> leading;
-  for (int entry : system.entries) leading.push_back(f_[plan_[at(entry)].f]);
+  for (int entry : system.entries) leading.push_back(leadingOf(entry));
   system.factors.factorise(leading.data());
   system.isFactorised = true;
 }
 
 /// Order 0 of the coefficients of 1.
 void PolynomialSeries::computeLeadingSolution(int first) {
-  Solution& solution = solutions_[at(plan_[at(first)].a)];
+  Solution& solution = solutions_[at(plan_[first].a)];
   System& system = systems_[at(solution.system)];
   if (!system.isFactorised) factorise(system);
   std::vector<double>& x = scratch2_;
-  for (int k = 0; k < system.size; ++k) x[at(k)] = f_[plan_[at(solution.rightSide[at(k)])].f];
+  for (int k = 0; k < system.size; ++k) x[at(k)] = leadingOf(solution.rightSide[at(k)]);
   std::fill_n(solution.residual.begin(), system.size, 0.0);
   system.factors.solve(x.data(), solution.residual.data());
-  for (int k = 0; k < system.size; ++k) put(plan_[at(first + k)], 0, 0, x[at(k)]);
+  for (int k = 0; k < system.size; ++k) put(plan_[first + k], 0, 0, x[at(k)]);
 }
 
 void PolynomialSeries::computeSolution(int first, int i) {
-  const Plan& v = plan_[at(first)];
+  const SeriesNode& v = plan_[first];
   Solution& solution = solutions_[at(v.a)];
   System& system = systems_[at(solution.system)];
   if (!system.isFactorised) factorise(system);
-  const int n = system.size, N = countOf(v, i);
+  const int n = system.size, N = plan_.countOf(v, i);
   std::fill_n(&solution.residual[at(i * n)], n, 0.0);
-  const auto* pairs = monomials_->pairs().data();
-  const auto* start = monomials_->first().data();
-  const auto x = [&](int k) -> const Plan& { return plan_[at(first + k)]; };
+  const auto* pairs = monomials().pairs().data();
+  const auto* start = monomials().first().data();
+  const auto x = [&](int k) -> const SeriesNode& { return plan_[first + k]; };
   double* right = rightSides_.data();
   double* part = scratch_.data();
   for (int k = 0; k < n; ++k)  // what is being computed counts as zero in the sums
     for (int g = 0; g < N; ++g) put(x(k), g, i, 0.0);
   for (int k = 0; k < n; ++k) {
     double* out = right + k * count();
-    const double* b = &f_[plan_[at(solution.rightSide[at(k)])].f];
-    for (int g = 0; g < N; ++g) out[g] = b[g * stride_ + i];
+    const double* b = series(solution.rightSide[at(k)]);
+    for (int g = 0; g < N; ++g) out[g] = b[g * stride() + i];
     for (int j = 0; j < n && i > 0; ++j) {
-      const Plan& a = plan_[at(system.entry(k, j))];
+      const SeriesNode& a = plan_[system.entry(k, j)];
       if (a.invariant || a.constant) continue;
       std::fill(part, part + N, 0.0);
-      kernels::convolve(pairs, start, N, &f_[a.f], &r_[x(j).r], stride_, i, part);
+      convolve(N, series(a), x(j), i, part);
       for (int g = 0; g < N; ++g) out[g] -= part[g];
     }
   }
   double* values = scratch2_.data();
   double varying = 0;  // entries of the matrix
   for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j) varying += plan_[at(system.entry(k, j))].constant ? 0 : 1;
+    for (int j = 0; j < n; ++j) varying += plan_[system.entry(k, j)].constant ? 0 : 1;
   Work::count(Work::multipliedPair, varying * (start[N] - N));
   Work::count(Work::matrixTerm, 4.0 * n * n * N);
   for (int g = 0; g < N; ++g) {  // grades from below: Σ_{β≠0} A_{0β} x_{i,α-β} is known
     for (int k = 0; k < n; ++k) {
       double s = right[k * count() + g];
       for (int j = 0; j < n && g > 0; ++j) {
-        const Plan& a = plan_[at(system.entry(k, j))];
+        const SeriesNode& a = plan_[system.entry(k, j)];
         if (a.constant) continue;
         double sum = 0;
         for (auto q = start[g]; q < start[g + 1]; ++q)
-          if (pairs[q].a != 0) sum += f_[a.f + at(pairs[q].a * stride_)] * f_[x(j).f + at(pairs[q].b * stride_ + i)];
+          if (pairs[q].a != 0) sum += f_[a.f + at(pairs[q].a * stride())] * f_[x(j).f + at(pairs[q].b * stride() + i)];
         s -= sum;
       }
       values[k] = s;
@@ -130,8 +125,8 @@ void PolynomialSeries::invert(System& system) {
   const std::vector<double>& leading = system.factors.inverse();
   std::vector<double> sum(at(n * n));
   const auto coefficient = [&](int i, int j, int g, int o) {
-    const Plan& a = plan_[at(system.entry(i, j))];
-    return g < a.count ? f_[a.f + at(g * stride_ + o)] : 0.0;
+    const SeriesNode& a = plan_[system.entry(i, j)];
+    return g < a.count ? series(a, g)[o] : 0.0;
   };
   const auto addProduct = [&](const std::vector<double>& c, int g, int o) {  // sum += c A_{og}
     for (int k = 0; k < n; ++k)
@@ -149,7 +144,7 @@ void PolynomialSeries::invert(System& system) {
     }
     std::fill(sum.begin(), sum.end(), 0.0);
     if (symbol >= 0)
-      addProduct(leading, monomials_->linear(symbol), 0);
+      addProduct(leading, monomials().linear(symbol), 0);
     else  // the orders come first
       for (int j = 1; j <= order; ++j) addProduct(system.inverse[at(order - j)], 0, j);
     c.assign(at(n * n), 0.0);
@@ -162,41 +157,41 @@ void PolynomialSeries::invert(System& system) {
 /// Σ_α |(I - C Ã)_{oα}| of each entry and order o, over the kept coefficients of Ã. What C cancels lies in the lowest
 /// grades: of the others, for each term of C by itself, |C||Ã| counts where that is negligible.
 void PolynomialSeries::multiplyByInverse(System& system) {
-  const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), row = kernels::reversedStride(stride_);
+  const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), width = kernels::reversedStride(stride());
   const std::vector<int> kept = gradesToMultiply(system);
   std::vector<int> counts;
   int last = 0;
   for (int t = 0; t < terms; ++t) {
     const int symbol = inverseTerms_[at(t)].second;
-    counts.push_back(kept[at(t)] > 0 ? monomials_->countUpTo(kept[at(t)] - 1) : 0);
-    last = std::max(last, kept[at(t)] - 1 + (symbol < 0 ? 0 : monomials_->weight(symbol)));
+    counts.push_back(kept[at(t)] > 0 ? monomials().countUpTo(kept[at(t)] - 1) : 0);
+    last = std::max(last, kept[at(t)] - 1 + (symbol < 0 ? 0 : monomials().weight(symbol)));
   }
-  const int targets = monomials_->countUpTo(last);
+  const int targets = monomials().countUpTo(last);
   double multiplied = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      double *product = combination_.data(), *defect = &system.defects[at((i * n + j) * row)];
-      std::fill_n(product, targets * row, 0.0);
-      std::fill_n(defect, row, 0.0);
+      double *product = combination_.data(), *defect = &system.defects[at((i * n + j) * width)];
+      std::fill_n(product, targets * width, 0.0);
+      std::fill_n(defect, width, 0.0);
       for (int k = 0; k < n; ++k) {
         const int entry = system.entry(k, j);
-        const Plan& a = plan_[at(entry)];
-        if (isKnownZero(entry)) continue;
+        const SeriesNode& a = plan_[entry];
+        if (plan_[entry].isZero) continue;
         const int orders = a.invariant ? 1 : m_;  // a state's last order belongs to its error
         for (int t = 0; t < terms; ++t) {
           const double c = system.inverse[at(t)][at(i * n + k)];
           if (c == 0) continue;
           const auto [order, symbol] = inverseTerms_[at(t)];
           const int from = std::min(a.constant ? 1 : a.count, counts[at(t)]);
-          kernels::addRows(&f_[a.f], stride_, from, c, orders, symbol < 0 ? nullptr : &shift_[at(symbol * count())],
-                           product + order, row);
+          kernels::addRows(series(a), stride(), from, c, orders, symbol < 0 ? nullptr : &shift_[at(symbol * count())],
+                           product + order, width);
           multiplied += static_cast<double>(orders) * from;
           const double* rest = massFrom(system, kept[at(t)], k, j);
           for (int o = 0; o < m_; ++o) defect[o + order] += std::fabs(c) * rest[o];
         }
       }
       if (i == j) product[0] -= 1;
-      kernels::addRowSizes(product, row, targets, m_ + inverseOrder, defect);
+      kernels::addRowSizes(product, width, targets, m_ + inverseOrder, defect);
     }
   Work::count(Work::matrixTerm, 0.4 * multiplied);
 }
@@ -205,22 +200,22 @@ void PolynomialSeries::multiplyByInverse(System& system) {
 /// together and row by row in the units of x, and none whose products would be no monomials of the series.
 std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
   constexpr double negligible = 1e-3;
-  const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), grades = monomials_->degree() + 1;
-  mass_.assign(at((grades + 1) * n * n * stride_), 0.0);
+  const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), grades = monomials().degree() + 1;
+  mass_.assign(at((grades + 1) * n * n * stride()), 0.0);
   std::vector<double>& unit = vector_;
   for (int i = 0; i < n; ++i) unit[at(i)] = *std::max_element(&system.norms[at(i * n)], &system.norms[at(i * n)] + n);
   std::vector<double> rows(at((grades + 1) * n), 0.0);  // Σ_j |Ã_{kj}| from a grade on
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j) {
       const int entry = system.entry(k, j);
-      const Plan& a = plan_[at(entry)];
-      if (isKnownZero(entry)) continue;
+      const SeriesNode& a = plan_[entry];
+      if (plan_[entry].isZero) continue;
       const int all = a.constant ? 1 : a.count, orders = a.invariant ? 1 : m_;
-      for (int q = std::min(grades - 1, monomials_->grade(all - 1)); q >= 0; --q) {
+      for (int q = std::min(grades - 1, monomials().grade(all - 1)); q >= 0; --q) {
         double *sizes = massFrom(system, q, k, j), *above = massFrom(system, q + 1, k, j), sum = 0;
-        const int first = monomials_->firstOf(q), end = std::min(all, monomials_->countUpTo(q));
+        const int first = monomials().firstOf(q), end = std::min(all, monomials().countUpTo(q));
         std::copy_n(above, m_, sizes);
-        kernels::addRowSizes(&f_[a.f + at(first * stride_)], stride_, end - first, orders, sizes);
+        kernels::addRowSizes(series(a, first), stride(), end - first, orders, sizes);
         for (int o = 0; o < m_; ++o) sum += sizes[o] * power_[at(o)];
         rows[at(q * n + k)] += sum * unit[at(j)];
       }
@@ -236,7 +231,7 @@ std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
       }
       return true;
     };
-    int grade = grades - (symbol < 0 ? 0 : monomials_->weight(symbol));
+    int grade = grades - (symbol < 0 ? 0 : monomials().weight(symbol));
     while (grade > 0 && isNegligible(grade - 1)) --grade;
     kept.push_back(grade);
   }
@@ -248,7 +243,7 @@ std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
 void PolynomialSeries::tabulateSystem(System& system) {
   const double theta = power_[1] > 0 ? power_[1] : 1.0;
   if (system.multipliedFor == 0) invert(system);  // C is the same for every θ
-  const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), row = kernels::reversedStride(stride_);
+  const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), width = kernels::reversedStride(stride());
   std::fill(system.norms.begin(), system.norms.end(), 0.0);
   for (int t = 0; t < terms; ++t)
     for (std::size_t i = 0; i < system.norms.size(); ++i)
@@ -261,86 +256,28 @@ void PolynomialSeries::tabulateSystem(System& system) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       double size = i == j ? 1 : 0, sum = 0, power = 1;
-      for (int k = 0; k < n; ++k) size += system.norms[at(i * n + k)] * norm_[at(system.entry(k, j))];
-      const double* defect = &system.defects[at((i * n + j) * row)];
+      for (int k = 0; k < n; ++k) size += system.norms[at(i * n + k)] * norm_[system.entry(k, j)];
+      const double* defect = &system.defects[at((i * n + j) * width)];
       for (int o = 0; o < m_ + inverseOrder; ++o, power *= theta) sum += defect[o] * power;
       system.own[at(i * n + j)] = (sum + (n * terms + 2) * bounds::unit * size) * bounds::up + bounds::tiny;
     }
 }
 
-/// Some v > 0, in vector2_, and the share < 1 for which H v ≤ share v, which proves that I - H is an M-matrix, H =
-/// amplified_; 1 if none is found: v = Σ_k H^k w for any w > 0; in the units of x, so that few terms do: the greatest
-/// entries of C's rows.
-double PolynomialSeries::contraction(const System& system) {
-  const int n = system.size;
-  const std::vector<double>&C = system.norms, &H = amplified_;
-  std::vector<double>&w = vector_, &v = vector2_, &Hv = vector3_;
-  for (int i = 0; i < n; ++i) {
-    w[at(i)] = 0;
-    for (int j = 0; j < n; ++j) w[at(i)] = std::max(w[at(i)], C[at(i * n + j)]);
-    v[at(i)] = w[at(i)];
-  }
-  double share = 1;
-  for (int iteration = 0; iteration < 40 && share >= 0.9; ++iteration) {
-    if (iteration > 0)
-      for (int i = 0; i < n; ++i) v[at(i)] = w[at(i)] + Hv[at(i)];
-    share = 0;
-    for (int i = 0; i < n; ++i) {
-      double s = 0;
-      for (int j = 0; j < n; ++j) s += H[at(i * n + j)] * v[at(j)];
-      Hv[at(i)] = s * bounds::up + bounds::tiny;
-      if (!(v[at(i)] > 0 && v[at(i)] < bounds::largest)) return 1;
-      share = std::max(share, Hv[at(i)] / v[at(i)] * bounds::up);
-    }
-  }
-  return share;
-}
-
-/// An upper bound of (I - H)⁻¹ ‖C‖, H = own + ‖C‖ ρ_A.
+/// With H = own + ‖C‖ ρ_A.
 bool PolynomialSeries::boundSystem(System& system) {
   const int n = system.size;
   const std::vector<double>& C = system.norms;
-  std::vector<double>&H = amplified_, &Y = system.amplifier, &next = amplified2_;
+  double* H = system.amplifier.matrix(n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       double s = system.own[at(i * n + j)];
       for (int k = 0; k < n; ++k) {
         const int entry = system.entry(k, j);
-        s += C[at(i * n + k)] * (rho0_[at(entry)] + rho1_[at(entry)] + lowOf(entry));
+        s += C[at(i * n + k)] * (rho_[entry].e0 + rho_[entry].e1 + lowOf(entry));
       }
-      H[at(i * n + j)] = s * bounds::up + bounds::tiny;
-      if (!(H[at(i * n + j)] < bounds::largest && C[at(i * n + j)] < bounds::largest)) return false;
+      H[i * n + j] = s * bounds::up + bounds::tiny;
     }
-  const double share = contraction(system);
-  const std::vector<double>& v = vector2_;
-  if (!(share < 0.99)) return false;
-  // Y about (I - H)⁻¹|C|, column by column; Z = Y + s v obeys Z ≥ |C| + H Z where s (1 - share) v ≥ |C| + H Y - Y.
-  for (std::size_t i = 0; i < C.size(); ++i) Y[i] = C[i];
-  for (double left = share, iteration = 0; iteration < 20 && (iteration == 0 || left > 1e-4);
-       ++iteration, left *= share) {
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        double s = C[at(i * n + j)];
-        for (int k = 0; k < n; ++k) s += H[at(i * n + k)] * Y[at(k * n + j)];
-        next[at(i * n + j)] = s;
-      }
-    std::copy_n(next.begin(), Y.size(), Y.begin());
-  }
-  for (int j = 0; j < n; ++j) {
-    double shift = 0;
-    for (int i = 0; i < n; ++i) {
-      double s = C[at(i * n + j)];
-      for (int k = 0; k < n; ++k) s += H[at(i * n + k)] * Y[at(k * n + j)];
-      const double defect = s * bounds::up + bounds::tiny - Y[at(i * n + j)];
-      if (defect > 0) shift = std::max(shift, defect / (v[at(i)] * (1 - share)) * bounds::up);
-    }
-    for (int i = 0; i < n; ++i) {
-      Y[at(i * n + j)] = (Y[at(i * n + j)] + shift * v[at(i)]) * bounds::up;
-      if (!(Y[at(i * n + j)] < bounds::largest)) return false;
-    }
-  }
-  system.isBounded = true;
-  return true;
+  return system.isBounded = system.amplifier.bound(C);
 }
 
 /// |b̃ - Ãx̃| for each component. Kept coefficients: γ_{N+2T+1} of all terms, with T entries in the row, a convolution's
@@ -349,11 +286,10 @@ bool PolynomialSeries::boundSystem(System& system) {
 /// |A₀||x̃|. Then what x̃ and b do not keep. In double-double the same of its roundings; of later orders all of that and
 /// the second doubles, 5T + 7 roundings of |A||x̃|.
 void PolynomialSeries::solutionOwnErrors(int first) {
-  const Plan& v = plan_[at(first)];
+  const SeriesNode& v = plan_[first];
   const Solution& solution = solutions_[at(v.a)];
   const System& system = systems_[at(solution.system)];
   const int n = system.size;
-  const bool graded = monomials_->degree() > 0;
   for (int k = 0; k < n; ++k) {
     const int b = solution.rightSide[at(k)];
     const int terms = termsIn(system, k);
@@ -362,26 +298,24 @@ void PolynomialSeries::solutionOwnErrors(int first) {
     for (int i = 0; i < (v.invariant ? 1 : m_); ++i)
       residual +=
           (i < fine_.orders() && fine ? fine_.residual(v.a, k, i) : solution.residual[at(i * n + k)]) * power_[at(i)];
-    double rounding = (2 * terms + 1) * norm_[at(b)] + 3 * (terms + 1) * system.factors.size(k, &norm_[at(first)]);
+    double rounding = (2 * terms + 1) * norm_[b] + 3 * (terms + 1) * system.factors.size(k, &norm_[first]);
     double coarse = fine ? (2 * terms + 1) * coarseNorm(b, fine_.orders()) : 0.0;
-    double e0 = 2 * residual + (graded ? dropped(b, v.degree) : 0.0), e1 = 0;
+    double e0 = 2 * residual + (isGraded() ? dropped(b, v.degree) : 0.0), e1 = 0;
     for (int j = 0; j < n; ++j) {
       const int a = system.entry(k, j), x = first + j;
-      if (isKnownZero(a)) continue;
-      rounding += (isByGrades_ ? terms : 1) * weighted_[at(a)] * weighted_[at(x)] +
-                  (2 * terms + 1) * norm_[at(a)] * norm_[at(x)];
+      if (plan_[a].isZero) continue;
+      rounding += (plan_.isByGrades ? terms : 1) * weighted_[a] * weighted_[x] + (2 * terms + 1) * norm_[a] * norm_[x];
       if (fine) coarse += (5 * terms + 7) * coarseProduct(a, x, 0);
       e1 += tailTime(a, x);
-      if (graded) e0 += tailDegree(a, x, v.degree, 0);
+      if (isGraded()) e0 += tailDegree(a, x, v.degree, 0);
     }
     rounding = fine ? bounds::fine * rounding + bounds::unit * coarse : bounds::unit * rounding;
-    own0_[at(first + k)] = (e0 + rounding) * bounds::up + bounds::tiny;
-    own1_[at(first + k)] = e1 * bounds::up;
+    own_[first + k] = SeriesError{e0 + rounding, e1}.up();
   }
 }
 
 bool PolynomialSeries::boundSolution(int first) {
-  const Solution& solution = solutions_[at(plan_[at(first)].a)];
+  const Solution& solution = solutions_[at(plan_[first].a)];
   System& system = systems_[at(solution.system)];
   if (!system.isBounded && !boundSystem(system)) return false;
   const int n = system.size;
@@ -389,11 +323,11 @@ bool PolynomialSeries::boundSolution(int first) {
   const auto low = [&](int node) { return isFine(first) ? 0.0 : lowOf(node); };
   for (int k = 0; k < n; ++k) {
     const int b = solution.rightSide[at(k)];
-    double e0 = own0_[at(first + k)] + rho0_[at(b)] + low(b), e1 = own1_[at(first + k)] + rho1_[at(b)];
+    double e0 = own_[first + k].e0 + rho_[b].e0 + low(b), e1 = own_[first + k].e1 + rho_[b].e1;
     for (int j = 0; j < n; ++j) {
       const int a = system.entry(k, j);
-      e0 += (rho0_[at(a)] + low(a)) * norm_[at(first + j)];
-      e1 += rho1_[at(a)] * norm_[at(first + j)];
+      e0 += (rho_[a].e0 + low(a)) * norm_[first + j];
+      e1 += rho_[a].e1 * norm_[first + j];
     }
     residual0[at(k)] = e0;
     residual1[at(k)] = e1;
@@ -402,12 +336,11 @@ bool PolynomialSeries::boundSolution(int first) {
   for (int i = 0; i < n; ++i) {
     double e0 = 0, e1 = 0;
     for (int k = 0; k < n; ++k) {
-      e0 += system.amplifier[at(i * n + k)] * residual0[at(k)];
-      e1 += system.amplifier[at(i * n + k)] * residual1[at(k)];
+      e0 += system.amplifier(i, k) * residual0[at(k)];
+      e1 += system.amplifier(i, k) * residual1[at(k)];
     }
-    rho0_[at(first + i)] = e0 * bounds::up + bounds::tiny;
-    rho1_[at(first + i)] = e1 * bounds::up + bounds::tiny;
-    isFinite = isFinite && rho0_[at(first + i)] + rho1_[at(first + i)] < bounds::largest;
+    rho_[first + i] = {e0 * bounds::up + bounds::tiny, e1 * bounds::up + bounds::tiny};
+    isFinite = isFinite && isBelowLargest(first + i);
   }
   return isFinite;
 }

@@ -25,7 +25,7 @@ double besides(double bound, double value) {
 
 /// ∂f_state/∂(sign), or what holds those that arrive.
 FlowStepper::Push FlowStepper::pushOf(const Crossing& crossing, std::size_t state) const {
-  const auto jumps = static_cast<int>(series_.jumps().size()), i = static_cast<int>(state);
+  const auto jumps = static_cast<int>(series_.kinks().jumps().size()), i = static_cast<int>(state);
   if (crossing.arrives) return {&crossing.held->series(), crossing.held->series().outputNode(i)};
   return {&series_, series_.outputNode(n_ + n_ * n_ + n_ * inputs_.count() + i * jumps + crossing.jump)};
 }
@@ -118,7 +118,7 @@ FlowStepper::Look FlowStepper::passKinks(const std::vector<JumpBound>& bounds, d
     const Interval over = bounds[k].start + Interval(0.0, h) * kinkRates_[k];
     if (!contains(bounds[k].over, 0.0) || contains(bounds[k].start, 0.0) || !isCommon(over)) continue;
     if (!contains(over, 0.0)) {
-      if (!series_.giveSide(kinks_->node(k), over.lower() > 0 ? 1 : -1)) continue;
+      if (!series_.kinks().giveSide(kinks_->node(k), over.lower() > 0 ? 1 : -1)) continue;
       givenAt_ = h;
       isNew = true;
       continue;
@@ -132,7 +132,7 @@ FlowStepper::Look FlowStepper::passKinks(const std::vector<JumpBound>& bounds, d
       return Look::unsided;
     }
     if (!passes || turn_) continue;
-    isNew = series_.passKink(kinks_->node(k), crossing->before) || isNew;
+    isNew = series_.kinks().passKink(kinks_->node(k), crossing->before) || isNew;
     crossings_.push_back({.form = &kinks_->form(k),
                           .node = kinks_->node(k),
                           .jump = -1,
@@ -326,7 +326,7 @@ void FlowStepper::boundCurvature(Crossing& crossing, double longest, std::vector
     spread += (2 * n_ + 2) * bounds::unit * size;
     crossing.curvature[at(i)] = K;
     const double off = crossing.arrives ? push.of->rho0(push.node) + push.of->rho1(push.node)
-                                        : series_.meanRho0(push.node) + series_.meanRho1(push.node);
+                                        : series_.meanRho(push.node).e0 + series_.meanRho(push.node).e1;
     rest[at(i)] += std::fabs(crossing.change()) * (off + longest * spread);
   }
 }
@@ -354,7 +354,7 @@ bool FlowStepper::boundCurvatureOfKink(Crossing& crossing, double longest, std::
 /// δ without what these signs do; of kinks (B̄ - B)u + B(u - ũ - c·Ψ̃(r + Γs)) + J̄D stands in the brackets.
 void FlowStepper::boundCrossings(const FlowSet& set) {
   if (crossings_.empty()) return;
-  for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, true);
+  for (const Crossing& crossing : crossings_) series_.kinks().setApart(crossing.node, true);
   bool isBounded = series_.bound(nullptr, false);
   std::vector<double> rest(at(n_), 0.0), last(at(n_), 0.0);
   for (int i = 0; i < n_ && isBounded; ++i) {
@@ -362,7 +362,7 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
     rest[at(i)] = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
     last[at(i)] = series_.rho1(f);
   }
-  for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, false);
+  for (const Crossing& crossing : crossings_) series_.kinks().setApart(crossing.node, false);
   isBounded = series_.bound(E_.data(), false) && isBounded;
   for (Crossing& crossing : crossings_) {
     isBounded = isBounded && series_.slopeOf(crossing.node) == crossing.before;

@@ -217,7 +217,7 @@ bool FlowStepper::leavesTogether(const FlowSet& set, double h) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (!held_.empty() && held_[k] != 0) continue;
     const std::size_t own = held_.empty() ? k : at(left_[k]);
-    const double sign = (held_.empty() ? 1 : factor_[k]) * series_.series(series_.jumps()[own])[0];
+    const double sign = (held_.empty() ? 1 : factor_[k]) * series_.series(series_.kinks().jumps()[own])[0];
     if (std::fabs(sign) != 1) return false;
     all[k] = leaving_[own];
     signs[k] = Interval(sign);

@@ -124,7 +124,7 @@ void FlowInputs::addPart(Course& course, double h, int part, std::vector<double>
       turningNow[at(i)] += radius_[at(k)] * speedOf(course, i, k, size) * half;
       constantNow[at(i)] +=
           radius_[at(k)] * (off(i, k) + rounding + series.variation(b) + course.variation.row(i).dot(size) +
-                            series.meanRho0(b) + series.meanRho1(b));
+                            series.meanRho(b).e0 + series.meanRho(b).e1);
     }
     const double reach = radius_[at(k)] * length * bounds::up;  // ≥ |∫u| over the part
     for (int i = 0; i < n_; ++i) {

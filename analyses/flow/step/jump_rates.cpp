@@ -118,16 +118,16 @@ void AlongStep::compute(double t0, double scale, double theta, const std::vector
   std::vector<Embedded> all = parameters;
   for (const Interval& sign : signs) all.push_back({midpoint(sign), 0, radius(sign)});
   for (std::size_t i = 0; i < all.size(); ++i) series_.setParameter(static_cast<int>(i), all[i]);
-  series_.forgetCrossings();
+  series_.kinks().forgetCrossings();
   timeKinks_.giveSides(all, t0, t0 + theta * scale, series_);
   for (const auto& [node, form] : kinks_)
     for (const auto& [u, side] : sides_)
-      if (isSameForm(form, *u)) series_.giveSide(node, side);
+      if (isSameForm(form, *u)) series_.kinks().giveSide(node, side);
   series_.compute(t0, scale);
 }
 
 bool AlongStep::isBounded(const std::vector<double>& tube) {
-  series_.forgetJumps();
+  series_.kinks().forgetJumps();
   if (series_.tabulate(theta_) && series_.bound(tube.data(), true)) return true;
   series_.clear();
   return false;

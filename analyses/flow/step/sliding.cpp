@@ -68,7 +68,7 @@ void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vecto
   left_ = std::move(left);
   factor_ = std::move(factor);
   const std::size_t pushes = own.isAffine ? at(n_) * own.count() : 0;
-  if (own.count() > 0 && series_.jumps().size() == own.count() && at(pushes_) == pushes) own_.emplace(own);
+  if (own.count() > 0 && series_.kinks().jumps().size() == own.count() && at(pushes_) == pushes) own_.emplace(own);
   if (!own_) std::ranges::fill(left_, -1);
   of_ = &of;
   if (!held_.empty()) holding_.emplace(of);
@@ -345,11 +345,11 @@ bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const 
   std::vector<Interval> start(own.count(), Interval::entire());
   bounds.assign(own.count(), {});
   for (std::size_t j = 0; j < own.count(); ++j) {
-    const int sign = series_.jumps()[j];
+    const int sign = series_.kinks().jumps()[j];
     const double value = series_.series(sign)[0];
     const bool isOnSide = !sides_.empty() && sides_[j] != 0;
-    if ((isOnSide || !series_.mayTurn(sign)) && std::fabs(value) == 1) bounds[j].sign = Interval(value);
-    if (isOnSide ? areSidesClear_ : !series_.mayTurn(sign)) continue;
+    if ((isOnSide || !series_.kinks().mayTurn(sign)) && std::fabs(value) == 1) bounds[j].sign = Interval(value);
+    if (isOnSide ? areSidesClear_ : !series_.kinks().mayTurn(sign)) continue;
     any = true;
     if (!own.forms[j]) continue;
     start[j] = argumentAtStart(set, j);
@@ -378,9 +378,10 @@ bool FlowStepper::mayPassKink(const FlowSet& set) const {
 std::vector<JumpBound> FlowStepper::sidedBounds() const {
   std::vector<JumpBound> bounds(own_->jumps().count());
   for (std::size_t j = 0; j < bounds.size(); ++j) {
-    const double value = series_.series(series_.jumps()[j])[0];
+    const double value = series_.series(series_.kinks().jumps()[j])[0];
     const bool isOnSide = !sides_.empty() && sides_[j] != 0;
-    if ((isOnSide || !series_.mayTurn(series_.jumps()[j])) && std::fabs(value) == 1) bounds[j].sign = Interval(value);
+    if ((isOnSide || !series_.kinks().mayTurn(series_.kinks().jumps()[j])) && std::fabs(value) == 1)
+      bounds[j].sign = Interval(value);
   }
   return bounds;
 }
@@ -522,7 +523,7 @@ FlowStepper::Look FlowStepper::lookAtCrossings(const FlowSet& set, const Around&
     if (crossing && !crosses && !isNarrower) longer = std::max(longer, beyondTheLast * crossing->moment.upper());
     if (crosses)
       crossings_.push_back({.form = &*own_->jumps().forms[j],
-                            .node = series_.jumps()[j],
+                            .node = series_.kinks().jumps()[j],
                             .jump = static_cast<int>(j),
                             .kink = -1,
                             .before = crossing->before,
@@ -556,7 +557,7 @@ FlowStepper::Look FlowStepper::giveNarrower(const std::vector<std::size_t>& narr
   for (const std::size_t j : narrower) {
     const auto crossing = std::ranges::find(crossings_, static_cast<int>(j), &Crossing::jump);
     const double about = crossing == crossings_.end() ? midpoint(ownBounds_[j].sign) : crossing->before;
-    series_.giveSign(series_.jumps()[j], ownBounds_[j].sign, ownBounds_[j].over, about);
+    series_.kinks().giveSign(series_.kinks().jumps()[j], ownBounds_[j].sign, ownBounds_[j].over, about);
   }
   return Look::again;
 }
@@ -791,11 +792,11 @@ void FlowStepper::narrowOver(std::vector<Interval>& states) const {
 
 template <class Of>
 std::vector<SignCases> FlowStepper::signs(std::size_t count, Of of) const {
-  const std::vector<int>& jumps = series_.jumps();
+  const std::vector<int>& jumps = series_.kinks().jumps();
   const auto own = [&](std::size_t j) -> SignCases {
     if (!ownBounds_.empty()) return of(ownBounds_[j]);
     const double value = series_.series(jumps[j])[0];
-    if (series_.mayTurn(jumps[j]) || std::fabs(value) != 1) return {};
+    if (series_.kinks().mayTurn(jumps[j]) || std::fabs(value) != 1) return {};
     return {.above = value > 0, .below = value < 0, .between = Interval::empty()};
   };
   std::vector<SignCases> result(count);

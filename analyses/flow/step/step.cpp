@@ -51,8 +51,8 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
   kinks_ = std::make_unique<FlowKinks>(motion, inputs_.parameters());
   if (kinks_->count() == 0) kinks_.reset();
   for (auto* v : {&epsilon_, &inTime_}) v->assign(at(n_ * n_), 0.0);
-  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &least_, &pace_,
-                  &second_, &third_, &turning_, &driven_, &heldTube_})
+  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &scale_, &floor_, &least_, &pace_, &second_, &third_,
+                  &turning_, &driven_, &heldTube_})
     v->assign(at(n_), 0.0);
 }
 
@@ -149,9 +149,9 @@ bool FlowStepper::areJumpsClear(const FlowSet& set) const {
   if (!own_ || holding_ || !inputs_.empty()) return false;
   const auto isKink = [](const Node& node) { return node.op == Op::abs; };
   if (std::ranges::any_of(own_->jumps().f.nodes(), isKink)) return false;
-  const std::vector<int>& jumps = series_.jumps();
+  const std::vector<int>& jumps = series_.kinks().jumps();
   for (std::size_t j = 0; j < jumps.size(); ++j)
-    if ((sides_.empty() || sides_[j] == 0) && series_.mayTurn(jumps[j])) return false;
+    if ((sides_.empty() || sides_[j] == 0) && series_.kinks().mayTurn(jumps[j])) return false;
   return staysOnSides(set, boxWithin(E_));
 }
 
@@ -196,7 +196,7 @@ bool FlowStepper::proveTube(const FlowSet& set, double h) {
       if (!(E_[at(i)] < bounds::largest)) return false;
     }
     if (!series_.bound(E_.data(), false)) return refuse();
-    if (series_.hasJumped() && !(boundAlong() && series_.bound(E_.data(), false))) return refuse();
+    if (series_.kinks().hasJumped() && !(boundAlong() && series_.bound(E_.data(), false))) return refuse();
     if (!boundGrowth(set, h)) return false;
     boundTube();
     bool isProved = true;
@@ -241,12 +241,12 @@ void FlowStepper::boundErrors(const FlowSet& set) {
 void FlowStepper::boundFrameErrors(const FlowSet& set) {
   std::vector<double> left(at(n_), 0.0);  // of |Ψ| total, out of time
   for (int j = 0; j < n_; ++j) {
-    for (int i = 0; i < n_; ++i) series_.frameDefect(i, j, nu0_[at(i)], nu1_[at(i)]);
+    for (int i = 0; i < n_; ++i) nu_[at(i)] = series_.frameDefect(i, j);
     for (int i = 0; i < n_; ++i) {
       double s = 0, time = 0;
       for (int l = 0; l < n_; ++l) {
-        s += growth_.M1(i, l) * nu0_[at(l)];
-        time += growth_.M2(i, l) * nu1_[at(l)];
+        s += growth_.M1(i, l) * nu_[at(l)].e0;
+        time += growth_.M2(i, l) * nu_[at(l)].e1;
       }
       epsilon_[at(i * n_ + j)] = (s + time) * bounds::up;
       left[at(i)] += time * total_[at(j)];
@@ -266,7 +266,7 @@ void FlowStepper::boundFrameErrors(const FlowSet& set) {
 bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   const double h = theta * h0_;  // exact: h0 is a power of two
   obstacle_.clear();
-  series_.forgetJumps();
+  series_.kinks().forgetJumps();
   if (!series_.tabulate(theta) || !boundAlong()) return refuse();
   for (int i = 0; i < n_; ++i) {
     scale_[at(i)] = std::max(series_.norm(i), least_[at(i)]);
@@ -311,9 +311,10 @@ bool FlowStepper::isTruncationTooLarge(double share) {
   const double allowed = std::max(share * h_, 0.25 * bounds::unit);  // less than rounding is no matter of ξ
   if (!(share > 0 && truncation_ > allowed)) return false;
   double truncation = 0;
-  for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, true);  // crossed_ tells what these do
+  for (const Crossing& crossing : crossings_)
+    series_.kinks().setApart(crossing.node, true);  // crossed_ tells what these do
   bool isBounded = series_.boundWithoutRadii();
-  for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, false);
+  for (const Crossing& crossing : crossings_) series_.kinks().setApart(crossing.node, false);
   for (int i = 0; i < n_ && isBounded; ++i) {
     double sum = 0;
     for (int j = 0; j < n_; ++j) sum += growth_.M1(i, j) * series_.rho0(series_.outputNode(j));
@@ -492,7 +493,7 @@ bool FlowStepper::drift(FlowSet& set, double end, std::vector<double>& turned) {
   constexpr double little = 1e-9;  // of another state: what rests until that moves it sets no pace
   caution_ = set.caution;
   growth_.setUnits(set.units);
-  series_.forgetCrossings();
+  series_.kinks().forgetCrossings();
   timeKinks_.giveSides(set.parameters, set.t, end, series_);
   const double left = end - set.t, h = std::min({expand(set, left, 1e-9 * left, little), h0_, left});
   if (!(h > 0)) return false;
@@ -552,13 +553,13 @@ void FlowStepper::begin(const FlowSet& set, double end) {
 
 /// All signs are as the step takes them at its start.
 void FlowStepper::forgetCrossings(const FlowSet& set, double end) {
-  series_.forgetCrossings();
+  series_.kinks().forgetCrossings();
   timeKinks_.giveSides(set.parameters, set.t, end, series_);
   for (std::size_t j = 0; j < sides_.size(); ++j)
-    if (sides_[j] != 0) series_.giveSide(series_.jumps()[j], sides_[j]);
-  if (passing_ != none) series_.giveSide(kinks_->node(passing_), passingFrom_);
+    if (sides_[j] != 0) series_.kinks().giveSide(series_.kinks().jumps()[j], sides_[j]);
+  if (passing_ != none) series_.kinks().giveSide(kinks_->node(passing_), passingFrom_);
   for (std::size_t k = 0; k < kinkSides_.size(); ++k)
-    if (kinkSides_[k] != 0) series_.giveSide(kinks_->node(k), kinkSides_[k]);
+    if (kinkSides_[k] != 0) series_.kinks().giveSide(kinks_->node(k), kinkSides_[k]);
 }
 
 void FlowStepper::compute(const FlowSet& set) {
@@ -573,7 +574,7 @@ void FlowStepper::computeAnew(Search& search) {
 }
 
 bool FlowStepper::adapts(Search& search) {
-  if (search.isAdapted || !series_.adaptToCrossings()) return false;
+  if (search.isAdapted || !series_.kinks().adaptToCrossings()) return false;
   search.isAdapted = true;
   compute(search.set);
   return true;
@@ -643,7 +644,7 @@ bool FlowStepper::isShortenedForHaste(Search& search) {
 void FlowStepper::shortenFailed(Search& search) {
   // What jumps there may be possible only at its middle: 1/(2 + sign u) where u may be zero.
   const bool isLate = search.attempt >= 3 || search.h < 0x1p25 * search.quantum;
-  if (isLate && series_.hasJumps() && adapts(search)) return;
+  if (isLate && series_.kinks().hasJumps() && adapts(search)) return;
   search.h *= std::min(0.6, 1 / series_.haste());
   caution_ = std::max(caution_ * 0.8, 0x1p-6);
 }

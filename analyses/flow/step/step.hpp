@@ -579,9 +579,10 @@ class FlowStepper {
   double givenAt_ = 0;  // the longest step that what was given holds for: signs, sides
   FlowCause why_;
   std::string obstacle_;  // of the last attempt
-  std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, inTime_, nu0_, nu1_, scale_, floor_;
-  std::vector<double> pace_;   // of a state, what is less sets no pace
-  std::vector<double> least_;  // the floor, or what counts of the state's size over the motion, if that is more
+  std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, inTime_, scale_, floor_;
+  std::vector<SeriesError> nu_;  // of a column of Ψ̃
+  std::vector<double> pace_;     // of a state, what is less sets no pace
+  std::vector<double> least_;    // the floor, or what counts of the state's size over the motion, if that is more
   std::vector<double> total_, errors_;            // R + Σ_j |Γ_j| of the set being stepped; without inputs
   std::vector<double> looseAtStart_;              // its W
   std::vector<double> driven_;                    // what inputs do to a state within the step, at most

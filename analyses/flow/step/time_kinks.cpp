@@ -206,13 +206,13 @@ void TimeKinks::giveSides(const std::vector<Embedded>& parameters, double from, 
   for (const Linear& kink : linear_) {
     const Interval moment = momentOf(kink.time, kink.constant, kink.parameters, parameters);
     const double after = kink.time.lower() > 0 ? 1 : -1;
-    if (from >= moment.upper()) series.giveSide(kink.node, after);
-    if (to <= moment.lower()) series.giveSide(kink.node, -after);
+    if (from >= moment.upper()) series.kinks().giveSide(kink.node, after);
+    if (to <= moment.lower()) series.kinks().giveSide(kink.node, -after);
   }
   for (const Switching& kink : switching_) {
     const auto next = std::ranges::upper_bound(kink.zeros, from, {}, [](const Interval& zero) { return zero.upper(); });
     const double side = kink.sides[static_cast<std::size_t>(next - kink.zeros.begin())];
-    if (side != 0 && (next == kink.zeros.end() || to <= next->lower())) series.giveSide(kink.node, side);
+    if (side != 0 && (next == kink.zeros.end() || to <= next->lower())) series.kinks().giveSide(kink.node, side);
   }
 }
 

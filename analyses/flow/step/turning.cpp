@@ -165,8 +165,9 @@ FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, doub
   std::vector<Interval> signs;
   double soonest = h, next = h;  // when the argument may be zero; another one
   for (std::size_t j = 0; j < own.count(); ++j) {
-    const double sign = series_.series(series_.jumps()[j])[0];
-    if (std::fabs(sign) != 1 || (sides_[j] == 0 && series_.mayTurn(series_.jumps()[j]))) return Look::released;
+    const double sign = series_.series(series_.kinks().jumps()[j])[0];
+    if (std::fabs(sign) != 1 || (sides_[j] == 0 && series_.kinks().mayTurn(series_.kinks().jumps()[j])))
+      return Look::released;
     signs.emplace_back(sign);
     if (sides_[j] == 0) continue;
     const double moment = h0_ * ownRates_->argumentAwayUntil(j, sides_[j], 0, h / h0_);
@@ -222,11 +223,12 @@ FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, doub
 /// Not where a sign has the same surface, or one may change at all: then f jumps besides.
 bool FlowStepper::mayPassAsTurn(std::size_t kink) const {
   if (!mayPass_ || !inputs_.empty() || monomials().symbols() == 0 || !(length_ > 0)) return false;
-  if (!own_) return series_.jumps().empty();
+  if (!own_) return series_.kinks().jumps().empty();
   for (std::size_t j = 0; j < own_->jumps().count(); ++j) {
     const std::optional<LinearForm>& form = own_->jumps().forms[j];
     const bool isOnSide = !sides_.empty() && sides_[j] != 0;
-    if ((!isOnSide && series_.mayTurn(series_.jumps()[j])) || (form && signOfRatio(*form, kinks_->form(kink)) != 0))
+    if ((!isOnSide && series_.kinks().mayTurn(series_.kinks().jumps()[j])) ||
+        (form && signOfRatio(*form, kinks_->form(kink)) != 0))
       return false;
   }
   return true;
@@ -285,8 +287,9 @@ void FlowStepper::takeKinkSides(AlongStep& along, double ofPassing) const {
 FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, double smallest) {
   std::vector<Interval> signs;
   for (std::size_t j = 0; own_ && j < own_->jumps().count(); ++j) {
-    const double sign = series_.series(series_.jumps()[j])[0];
-    if (std::fabs(sign) != 1 || ((sides_.empty() || sides_[j] == 0) && series_.mayTurn(series_.jumps()[j])))
+    const double sign = series_.series(series_.kinks().jumps()[j])[0];
+    if (std::fabs(sign) != 1 ||
+        ((sides_.empty() || sides_[j] == 0) && series_.kinks().mayTurn(series_.kinks().jumps()[j])))
       return Look::released;
     signs.emplace_back(sign);
   }
@@ -320,7 +323,7 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
   turn.besides.clear();
   if (!own_ || areSidesClear_) return true;
   std::vector<Interval> signs;
-  for (const int jump : series_.jumps()) signs.emplace_back(series_.series(jump)[0]);
+  for (const int jump : series_.kinks().jumps()) signs.emplace_back(series_.series(jump)[0]);
   takeKinkSides(*ownRates_, turn.jump == none ? -passingFrom_ : 0);  // from their moments on
   if (!ownRates_->load(states, set.t, h0_, turn.stops() ? turn.span : theta_, set.parameters, signs, tube))
     return false;

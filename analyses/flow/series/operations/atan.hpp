@@ -9,10 +9,10 @@ template <>
 struct FlowFunction<Op::atan> : SlopeQuotient<Op::atan> {
   /// 1 + ũ² ≥ 1; w̃ is off 1 + ũ² by its own bound and by u² - ũ²; |atan u - atan ũ| ≤ ρ_u.
   static bool bound(Series& s, int x, const Operands& of) {
-    const Plan& v = plan(s, x);
-    const double r = of.r(v.a), offW = of.r(v.b) + (2 * s.norm_[at(v.a)] + r) * r;
-    return s.setBounds(
-        x, {s.pointError_[at(x)] + s.own0_[at(x)] + s.norm_[at(x)] * offW + of.r0(v.a), s.own1_[at(x)] + of.r1(v.a)});
+    const SeriesNode& v = plan(s, x);
+    const double r = of.r(v.a), offW = of.r(v.b) + (2 * s.norm_[v.a] + r) * r;
+    return s.setBounds(x,
+                       {s.pointError_[x] + s.own_[x].e0 + s.norm_[x] * offW + of.r0(v.a), s.own_[x].e1 + of.r1(v.a)});
   }
 };
 

@@ -19,11 +19,11 @@ namespace gamut {
 ///
 ///     void products(x, a, b, add)    add(left, right, target, isSlope) for the products that its series is made of
 ///     void putLeading(s, x)          order 0 in time of the coefficient of 1
-///     void row(s, x)                 and of all monomials
+///     void series(s, x)                 and of all monomials
 ///     void order(s, x, i)            order i > 0, of all monomials
 ///     void thinOrder(v, x, i, cur)   order i > 0 of the coefficient of 1 alone (kernels.hpp)
 ///     void lane(s, x, i, q)          order i of the monomials of grade q that are carried on together
-///     Errors ownErrors(s, x)         what it adds to the error of u: e0 + e1 (σ/θ)^m
+///     SeriesError ownErrors(s, x)         what it adds to the error of u: e0 + e1 (σ/θ)^m
 ///     bool bound(s, x, of)           ρ0 and ρ1, from these and those of u; false: not proved
 ///
 /// The first of twins, at x, does so for both, but for `bound`.
@@ -33,8 +33,6 @@ struct FlowFunction;
 /// What a function is unless it says otherwise.
 struct AnyFlowFunction {
   using Series = PolynomialSeries;
-  using Plan = Series::Plan;
-  using Errors = Series::Errors;
   using Operands = Series::Operands;
   using Thin = kernels::ThinNode;
   static constexpr int lanes = kernels::lanes;
@@ -47,11 +45,8 @@ struct AnyFlowFunction {
   static void lane(Series&, int, int, int) {}
 
  protected:
-  static std::size_t at(int i) { return detail::at(i); }
-  static const Plan& plan(const Series& s, int x) { return s.plan_[at(x)]; }
-  static double coefficient(const Series& s, const Plan& v, int g, int i = 0) {
-    return s.f_[v.f + at(g * s.stride_ + i)];
-  }
+  static const SeriesNode& plan(const Series& s, int x) { return s.plan_[x]; }
+  static double coefficient(const Series& s, const SeriesNode& v, int g, int i = 0) { return s.series(v, g)[i]; }
   static void setLanes(double* to, const auto& value) {
     for (int l = 0; l < lanes; ++l) to[l] = value(l);
   }
@@ -65,7 +60,7 @@ struct AnyFlowFunction {
     if (std::isfinite(u)) FlowFunction<op>::values(Interval(u), first, second);
     const auto put = [&s](int node, const Interval& value) {
       s.put(plan(s, node), 0, 0, isEmpty(value) ? std::nan("") : midpoint(value));
-      s.pointError_[at(node)] = isEmpty(value) ? std::nan("") : width(value);
+      s.pointError_[node] = isEmpty(value) ? std::nan("") : width(value);
     };
     put(x, first);
     if constexpr (hasTwin(op)) put(x + 1, second);
@@ -81,23 +76,23 @@ struct SlopeQuotient : AnyFlowFunction {
   static void putLeading(Series& s, int x) { putPoint<op>(s, x); }
 
   /// l_g = (u_g - Σ grade(p) l_p w_r / grade(g)) / w_0
-  static void row(Series& s, int x) {
-    const Plan &v = plan(s, x), &a = plan(s, v.a), &w = plan(s, v.b);
+  static void series(Series& s, int x) {
+    const SeriesNode &v = plan(s, x), &a = plan(s, v.a), &w = plan(s, v.b);
     putPoint<op>(s, x);
     const double w0 = coefficient(s, w, 0);
     for (int g = 1; g < v.count; ++g) {
       const double sum = s.sumOverPairs(g, [&](int p, int r) {
-        return r == 0 ? 0.0 : s.monomials_->grade(p) * coefficient(s, v, p) * coefficient(s, w, r);
+        return r == 0 ? 0.0 : s.plan_.monomials->grade(p) * coefficient(s, v, p) * coefficient(s, w, r);
       });
-      s.put(v, g, 0, (coefficient(s, a, g) - sum / s.monomials_->grade(g)) / w0);
+      s.put(v, g, 0, (coefficient(s, a, g) - sum / s.plan_.monomials->grade(g)) / w0);
     }
-    for (int g = 0; g < v.count; ++g) s.d_[v.d + at(g * s.stride_)] = 0.0;
+    for (int g = 0; g < v.count; ++g) s.slopes(v, g)[0] = 0.0;
     s.invertLeading(x, w);
   }
   /// l_i = (u_i - Σ_{1≤j<i} j l_j w_{i-j} / i) / w_0
   static void order(Series& s, int x, int i) {
-    const Plan &v = plan(s, x), &a = plan(s, v.a);
-    s.putQuotient<true>(x, i, &s.d_[v.d], plan(s, v.b),
+    const SeriesNode &v = plan(s, x), &a = plan(s, v.a);
+    s.putQuotient<true>(x, i, s.slopes(v), plan(s, v.b),
                         [&](int g, double sum) { return coefficient(s, a, g, i) - sum / i; });
   }
   GAMUT_INLINE static void thinOrder(const Thin* v, int x, int i, double* cur) {
@@ -105,7 +100,7 @@ struct SlopeQuotient : AnyFlowFunction {
     cur[x] = (cur[n.a] - kernels::thinDot(n.derivative, w.reversed, i) / i) / w.forward[0];
   }
   static void lane(Series& s, int x, int i, int q) {
-    const Plan& v = plan(s, x);
+    const SeriesNode& v = plan(s, x);
     double* out = s.lane(x, i);
     const double *of = s.lane(v.a, i), inverse = 1 / s.series(v.b)[0];
     if (i == 0) return setLanes(out, [&](int l) { return (of[l] - out[l] / q) * inverse; });
@@ -114,8 +109,8 @@ struct SlopeQuotient : AnyFlowFunction {
     setLanes(out, [&](int l) { return (of[l] - out[l] / i) * inverse; });
   }
 
-  static Errors ownErrors(Series& s, int x) {
-    const Plan& v = plan(s, x);
+  static SeriesError ownErrors(Series& s, int x) {
+    const SeriesNode& v = plan(s, x);
     double e0 = s.quotientResidual(x);
     if (s.isGraded()) e0 += s.tailDegree(x, v.b, v.degree, 1) + s.tailRow(x, v.b, v.degree) + s.dropped(v.a, v.degree);
     return {e0, s.tailTime(x, v.b)};
@@ -137,19 +132,19 @@ struct SlopeProducts : AnyFlowFunction {
   static void values(const Interval& u, Interval& v, Interval& twin) { evaluate(Function<op>(), u, v, twin); }
   static void putLeading(Series& s, int x) { putPoint<op>(s, x); }
 
-  static void row(Series& s, int x) {
+  static void series(Series& s, int x) {
     beginRow(s, x);
     for (int g = 1; g < plan(s, x).count; ++g) putRow(s, x, g);
   }
   /// v_i = Σ_{j≥1} j u_j w_{i-j} / i
   static void order(Series& s, int x, int i) {
-    const Plan& v = plan(s, x);
+    const SeriesNode& v = plan(s, x);
     s.clearOrder(v, i);
     if (hasTwin(op)) s.clearOrder(plan(s, x + 1), i);
     const double* slope = s.putSlope(plan(s, v.a), i);
     const auto put = [&](auto e) {
-      const double* sum = s.convolved(v, i, slope, plan(s, x + e.factor), s.scratch_);
-      for (int g = 0; g < s.countOf(v, i); ++g) s.put(plan(s, x + e.target), g, i, e.sign * sum[g] / i);
+      const double* sum = s.convolved(v, i, slope, plan(s, x + e.factor));
+      for (int g = 0; g < s.plan_.countOf(v, i); ++g) s.put(plan(s, x + e.target), g, i, e.sign * sum[g] / i);
     };
     (put(Equations()), ...);
   }
@@ -179,18 +174,18 @@ struct SlopeProducts : AnyFlowFunction {
  protected:
   /// The coefficient of 1, and none of u'.
   static void beginRow(Series& s, int x) {
-    const Plan& a = plan(s, plan(s, x).a);
+    const SeriesNode& a = plan(s, plan(s, x).a);
     putPoint<op>(s, x);
-    for (int g = 0; g < a.count; ++g) s.d_[a.d + at(g * s.stride_)] = 0.0;
+    for (int g = 0; g < a.count; ++g) s.slopes(a, g)[0] = 0.0;
   }
   /// Monomial g > 0 of v, the integral of u' w along ξ: Σ grade(p) u_p w_r / grade(g).
   static void putRow(Series& s, int x, int g) {
-    const Plan& a = plan(s, plan(s, x).a);
+    const SeriesNode& a = plan(s, plan(s, x).a);
     const auto put = [&](auto e) {
       const double sum = s.sumOverPairs(g, [&](int p, int r) {
-        return s.monomials_->grade(p) * coefficient(s, a, p) * coefficient(s, plan(s, x + e.factor), r);
+        return s.plan_.monomials->grade(p) * coefficient(s, a, p) * coefficient(s, plan(s, x + e.factor), r);
       });
-      s.put(plan(s, x + e.target), g, 0, e.sign * sum / s.monomials_->grade(g));
+      s.put(plan(s, x + e.target), g, 0, e.sign * sum / s.plan_.monomials->grade(g));
     };
     (put(Equations()), ...);
   }

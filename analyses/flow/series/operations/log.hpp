@@ -14,8 +14,7 @@ struct FlowFunction<Op::log> : SlopeQuotient<Op::log> {
     const int a = plan(s, x).a;
     const double below = (s.minimum(a) - of.r(a) * bounds::up) * bounds::down;
     if (!(below > 0)) return false;
-    return s.setBounds(
-        x, {s.pointError_[at(x)] + (s.own0_[at(x)] + of.r0(a)) / below, (s.own1_[at(x)] + of.r1(a)) / below});
+    return s.setBounds(x, {s.pointError_[x] + (s.own_[x].e0 + of.r0(a)) / below, (s.own_[x].e1 + of.r1(a)) / below});
   }
 };
 

@@ -14,8 +14,8 @@ struct FlowFunction<Op::sqrt> : AnyFlowFunction {
   static void putLeading(Series& s, int x) {
     s.put(plan(s, x), 0, 0, std::sqrt(coefficient(s, plan(s, plan(s, x).a), 0)));
   }
-  static void row(Series& s, int x) {
-    const Plan &v = plan(s, x), &a = plan(s, v.a);
+  static void series(Series& s, int x) {
+    const SeriesNode &v = plan(s, x), &a = plan(s, v.a);
     const double root = std::sqrt(coefficient(s, a, 0));
     s.put(v, 0, 0, root);
     for (int g = 1; g < v.count; ++g) {
@@ -27,8 +27,9 @@ struct FlowFunction<Op::sqrt> : AnyFlowFunction {
   }
   /// r_i = (u_i - Σ_{0<j<i} r_j r_{i-j}) / (2 r_0)
   static void order(Series& s, int x, int i) {
-    const Plan &v = plan(s, x), &a = plan(s, v.a);
-    s.putQuotient<false>(x, i, &s.f_[v.f], v, [&](int g, double sum) { return 0.5 * (coefficient(s, a, g, i) - sum); });
+    const SeriesNode &v = plan(s, x), &a = plan(s, v.a);
+    s.putQuotient<false>(x, i, s.series(v), v,
+                         [&](int g, double sum) { return 0.5 * (coefficient(s, a, g, i) - sum); });
   }
   GAMUT_INLINE static void thinOrder(const Thin* v, int x, int i, double* cur) {
     const Thin& n = v[x];
@@ -41,8 +42,8 @@ struct FlowFunction<Op::sqrt> : AnyFlowFunction {
     setLanes(out, [&](int l) { return (of[l] - out[l] - 2 * sum[l]) * half; });
   }
 
-  static Errors ownErrors(Series& s, int x) {
-    const Plan& v = plan(s, x);
+  static SeriesError ownErrors(Series& s, int x) {
+    const SeriesNode& v = plan(s, x);
     const double left = s.isGraded() ? s.tailDegree(x, x, v.degree, 0) + s.dropped(v.a, v.degree) : 0.0;
     return {s.productResidual(x, x, v.a) + left, s.tailTime(x, x)};
   }
@@ -52,7 +53,7 @@ struct FlowFunction<Op::sqrt> : AnyFlowFunction {
     const double least = s.minimum(a) - of.r(a) * bounds::up, own = s.minimum(x);
     if (!(least > 0 && own > 0)) return false;
     const double below = (own + std::sqrt(least)) * bounds::down;
-    return s.setBounds(x, {(s.own0_[at(x)] + of.r0(a)) / below, (s.own1_[at(x)] + of.r1(a)) / below});
+    return s.setBounds(x, {(s.own_[x].e0 + of.r0(a)) / below, (s.own_[x].e1 + of.r1(a)) / below});
   }
 };
 

@@ -20,8 +20,8 @@ struct FlowFunction<Op::tanh> : SlopeProducts<Op::tanh, SlopeEquation<0, 1, 1>> 
     tangent = tanh(u);
     slope = 4.0 * e / sqr(1.0 + e);  // not 1 - tanh²: to its own digits, however small
   }
-  static void row(Series& s, int x) {
-    const Plan& v = plan(s, x);
+  static void series(Series& s, int x) {
+    const SeriesNode& v = plan(s, x);
     beginRow(s, x);
     for (int g = 1; g < v.count; ++g) {
       putRow(s, x, g);
@@ -31,10 +31,10 @@ struct FlowFunction<Op::tanh> : SlopeProducts<Op::tanh, SlopeEquation<0, 1, 1>> 
   }
   /// s_i = -Σ t_j t_{i-j}
   static void order(Series& s, int x, int i) {
-    const Plan& v = plan(s, x);
+    const SeriesNode& v = plan(s, x);
     Slope::order(s, x, i);
-    const double* sum = s.convolved(v, i, &s.f_[v.f], v, s.scratch_);
-    for (int g = 0; g < s.countOf(v, i); ++g) s.put(plan(s, x + 1), g, i, -sum[g]);
+    const double* sum = s.convolved(v, i, s.series(v), v);
+    for (int g = 0; g < s.plan_.countOf(v, i); ++g) s.put(plan(s, x + 1), g, i, -sum[g]);
   }
   GAMUT_INLINE static void thinOrder(const Thin* v, int x, int i, double* cur) {
     Slope::thinOrder(v, x, i, cur);
@@ -49,15 +49,15 @@ struct FlowFunction<Op::tanh> : SlopeProducts<Op::tanh, SlopeEquation<0, 1, 1>> 
 
   /// κ = |s̃ - (1 - t̂²)|, t̂ = t̃ + tanh u_00 - t_00: the constants of both cancel but for their own errors, and the
   /// others are sums of N ≤ weights products, in which t_00 meets only what is not constant.
-  static Errors ownErrors(Series& s, int x) {
-    const Plan& v = plan(s, x);
+  static SeriesError ownErrors(Series& s, int x) {
+    const SeriesNode& v = plan(s, x);
     const double weighted = s.weightedRest(x);
-    const double kappa0 = s.pointError_[at(x + 1)] + 2 * s.pointError_[at(x)] * s.rest(x) +
+    const double kappa0 = s.pointError_[x + 1] + 2 * s.pointError_[x] * s.rest(x) +
                           bounds::unit * weighted * (2 * s.leading(x) + weighted) +
                           (s.isGraded() ? s.tailDegree(x, x, v.degree, 0) : 0.0);
-    const double own0 = s.own0_[at(x + 1)] = kappa0 * bounds::up + bounds::tiny;
-    const double own1 = s.own1_[at(x + 1)] = s.tailTime(x, x) * bounds::up;
-    const Errors e = s.differentialErrors(v.a, x + 1, v.degree);
+    const double own0 = s.own_[x + 1].e0 = kappa0 * bounds::up + bounds::tiny;
+    const double own1 = s.own_[x + 1].e1 = s.tailTime(x, x) * bounds::up;
+    const SeriesError e = s.differentialErrors(v.a, x + 1, v.degree);
     return {e.e0 + s.rest(v.a) * own0, e.e1 + s.rest(v.a) * own1};
   }
 
@@ -69,22 +69,22 @@ struct FlowFunction<Op::tanh> : SlopeProducts<Op::tanh, SlopeEquation<0, 1, 1>> 
   static bool bound(Series& s, int x, const Operands&) {
     const int u = plan(s, x).a, slope = x + 1;
     const auto upperExp = [](double y) { return exp(Interval(y)).upper(); };
-    const double leading = s.leading(u), V = s.rest(u) * bounds::up, rho0 = s.rho0_[at(u)], rho1 = s.rho1_[at(u)];
+    const double leading = s.leading(u), V = s.rest(u) * bounds::up, rho0 = s.rho_[u].e0, rho1 = s.rho_[u].e1;
     const double rho = (rho0 + rho1) * bounds::up;
     const double least = std::max(0.0, (leading - V - rho) * bounds::down - bounds::unit * leading);
     const double decay = upperExp(-2 * least), steepest = std::min(1.0, 4 * decay);
     const auto set = [&](int which, double z0, double z1, double whatever) {
       const bool isProved = z0 + z1 <= whatever;
-      s.rho0_[at(which)] = (isProved ? z0 : whatever) * bounds::up + bounds::tiny;
-      s.rho1_[at(which)] = isProved ? z1 * bounds::up : 0.0;
+      s.rho_[which].e0 = (isProved ? z0 : whatever) * bounds::up + bounds::tiny;
+      s.rho_[which].e1 = isProved ? z1 * bounds::up : 0.0;
       return isProved;
     };
     double growth = upperExp(2 * V * std::min(1.0, leading + V) * bounds::up);
-    const double own0 = s.own0_[at(x)], own1 = s.own1_[at(x)], delta = (own0 + own1) * growth * bounds::up;
+    const double own0 = s.own_[x].e0, own1 = s.own_[x].e1, delta = (own0 + own1) * growth * bounds::up;
     growth *= 2 * V * delta <= 0.69 ? upperExp(2 * V * delta * bounds::up) : HUGE_VAL;
     const double e0 = own0 * growth, e1 = own1 * growth, range = s.rest(x) + 2 * decay;
     const bool isFollowed =
-        set(x, s.pointError_[at(x)] + e0 + steepest * rho0, e1 + steepest * rho1, s.pointError_[at(x)] + range);
+        set(x, s.pointError_[x] + e0 + steepest * rho0, e1 + steepest * rho1, s.pointError_[x] + range);
     if ((isFollowed ? e0 : range) > bounds::unit) {
       // A shorter step helps: u may go where tanh is ±1 to the last digit, or about as far as the pole at ±iπ/2 lets
       // it.
@@ -93,9 +93,9 @@ struct FlowFunction<Op::tanh> : SlopeProducts<Op::tanh, SlopeEquation<0, 1, 1>> 
       s.haste_ = std::max(s.haste_, s.moved(u) / most);
     }
     // 1 - t̂² - (1 - T²) = -e(2T + e), |(sech²)'| = 2|tanh| sech² < 0.77; sech² u and sech² u_00 lie in [0, steepest].
-    const double twice = 2 + (e0 + e1), tilt = std::min(0.77, 2 * steepest), own = s.own0_[at(slope)];
-    set(slope, own + twice * e0 + tilt * rho0, s.own1_[at(slope)] + twice * e1 + tilt * rho1,
-        s.pointError_[at(slope)] + s.rest(slope) + steepest);
+    const double twice = 2 + (e0 + e1), tilt = std::min(0.77, 2 * steepest), own = s.own_[slope].e0;
+    set(slope, own + twice * e0 + tilt * rho0, s.own_[slope].e1 + twice * e1 + tilt * rho1,
+        s.pointError_[slope] + s.rest(slope) + steepest);
     return s.isBelowLargest(x);
   }
 };
