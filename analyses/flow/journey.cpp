@@ -69,7 +69,7 @@ std::optional<FlowJourney> FlowFollower::insteadOfLosingTurn(FlowPiece& piece) {
     return FlowJourney::goesOn;
   }
   if (turnSymbol_ >= 0 && at(turnSymbol_) < piece.set.half.size() && !tool_->stepper.hasTurned() &&
-      piece.set.half[at(turnSymbol_)] > leastHalf && run_.mayBisect())
+      piece.set.half[turnSymbol_] > leastHalf && run_.mayBisect())
     return bisect(piece, turnSymbol_, false);
   piece.isTurnLost = true;
   return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<FlowJourney> FlowFollower::insteadOfStep(FlowPiece& piece, StepOut
   const bool futile = outcome == StepOutcome::failed && (escapes || stepper.isRemainderDominant(piece.set));
   const int symbol = stepper.worstSymbol();
   // Centres of pieces are exact: fifty bisections of one symbol is as far as that goes.
-  const bool tooFine = symbol < task_.embedding.symbols && piece.set.half[at(symbol)] < 0x1p-50;
+  const bool tooFine = symbol < task_.embedding.symbols && piece.set.half[symbol] < 0x1p-50;
   if (futile || tooFine) return std::nullopt;
   if (run_.mayBisect()) return bisect(piece, symbol, symbol >= task_.embedding.symbols);
   piece.refusedAt = piece.set.t;
@@ -440,13 +440,12 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
   states.resize(at(task_.motion.states()));
   stateCore_.clear();
   for (int i = 0; i < task_.motion.states(); ++i) {
-    const double* p = &point_.p[at(i * N)];
+    const double* p = &point_.p[i * N];
     double dropped = 0;
     for (int g = isShort ? with->outputs.monomials()->count() : N; g < N; ++g) dropped += std::fabs(p[g]);
-    const double radius = (point_.radius[at(i)] + dropped) * (dropped > 0 ? bounds::up : 1.0);
-    states[at(i)] = range(p, whole_, rangeTolerance_) + inflated(Interval(point_.low[at(i)]), radius);
-    stateCore_.push_back(
-        without(states[at(i)], point_.radius[at(i)] - point_.driven[at(i)] - point_.known[at(i)] + range.gap()));
+    const double radius = (point_.radius[i] + dropped) * (dropped > 0 ? bounds::up : 1.0);
+    states[at(i)] = range(p, whole_, rangeTolerance_) + inflated(Interval(point_.low[i]), radius);
+    stateCore_.push_back(without(states[at(i)], point_.radius[i] - point_.driven[i] - point_.known[i] + range.gap()));
   }
   outputs.clear();
   outputLimits_.clear();
@@ -574,8 +573,7 @@ void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
     if (!restrictTo(task_.levels[level], task_.embedding, piece.set.centre, piece.set.half, xi)) break;
     std::vector<Interval> cut, states;
     for (int i = 0; i < task_.motion.states(); ++i)
-      states.push_back(tool_->range(&point_.p[at(i * N)], xi) +
-                       inflated(Interval(point_.low[at(i)]), point_.radius[at(i)]));
+      states.push_back(tool_->range(&point_.p[i * N], xi) + inflated(Interval(point_.low[i]), point_.radius[i]));
     if (outputs_)
       appendOutputs(piece, states, xi, cut);
     else

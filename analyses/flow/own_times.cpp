@@ -265,8 +265,8 @@ class FlowFollower::OwnChords {
   void recordCell(Cell& cell, bool isChord) {
     std::vector<Interval> states, outputs;
     for (int i = 0; i < f_.task_.motion.states(); ++i)
-      states.push_back(f_.tool_->range(&f_.point_.p[at(i * f_.monomialCount_)], cell.xi, tolerance) +
-                       inflated(Interval(f_.point_.low[at(i)]), f_.point_.radius[at(i)]));
+      states.push_back(f_.tool_->range(&f_.point_.p[i * f_.monomialCount_], cell.xi, tolerance) +
+                       inflated(Interval(f_.point_.low[i]), f_.point_.radius[i]));
     f_.outputLimits_.clear();
     if (f_.outputs_) f_.appendOutputs(piece_, states, cell.xi, outputs);
     const std::vector<Interval> limits = f_.outputLimits_;

@@ -131,7 +131,7 @@ class Weighing {
     std::vector<double> turned(at(n * n), 0.0), sizes(at(n));
     const auto keep = [&] {
       for (int i = 0; i < n; ++i) {
-        const double* p = &set.p[at(i * monomials->count())];
+        const double* p = &set.p[i * monomials->count()];
         sizes[at(i)] = 0;
         for (int g = 0; g < monomials->count(); ++g) sizes[at(i)] += std::fabs(p[g]);
         isWhole = isWhole && std::isfinite(sizes[at(i)]);
@@ -151,7 +151,7 @@ class Weighing {
         keep();
       }
       if (!weighs) continue;
-      for (int i = 0; i < n; ++i) outputs.setState(i, &set.p[at(i * monomials->count())]);
+      for (int i = 0; i < n; ++i) outputs.setState(i, &set.p[i * monomials->count()]);
       for (std::size_t i = 0; i < set.parameters.size(); ++i)
         outputs.setParameter(static_cast<int>(i), set.parameters[i]);
       outputs.compute(set.t, 1.0);

@@ -43,7 +43,7 @@ FlowPiece FlowRun::start() const {
   const FlowLayout& layout = task_.layouts.front();
   piece.set = startOf(task_.embedding, task_.motion.states(), *layout.monomials, layout.frameDegree);
   for (int i = 0; task_.fineOrders > 0 && i < task_.motion.states(); ++i) {
-    piece.set.R[at(i)] = task_.embedding.components[at(i)].radius;
+    piece.set.R[i] = task_.embedding.components[at(i)].radius;
     piece.set.low.push_back(task_.embedding.components[at(i)].low);
   }
   return piece;
@@ -224,8 +224,7 @@ void FlowRun::probe(const FlowPiece& piece) {
     start[at(task_.motion.states() + parameter)] = midpoint(task_.box[at(task_.motion.states() + parameter)]);
   for (std::size_t i = 0; i < start.size(); ++i)
     if (const Embedded& e = task_.embedding.components[i]; e.symbol >= 0)
-      start[i] =
-          std::clamp(e.centre + e.half * piece.set.centre[at(e.symbol)], task_.box[i].lower(), task_.box[i].upper());
+      start[i] = std::clamp(e.centre + e.half * piece.set.centre[e.symbol], task_.box[i].lower(), task_.box[i].upper());
   FlowOptions options;
   options.order = task_.options.order;
   options.split = false;

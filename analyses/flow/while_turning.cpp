@@ -91,8 +91,8 @@ void FlowFollower::encloseWhileTurning(const FlowPiece& piece, double tau, std::
       if (hasTurned(part) != turned) continue;
       std::vector<Interval> own, ownOutputs;
       for (int i = 0; i < task_.motion.states(); ++i)
-        own.push_back(tool_->range(&point_.p[at(i * monomialCount_)], part.xi) +
-                      inflated(Interval(point_.low[at(i)]), point_.radius[at(i)]));
+        own.push_back(tool_->range(&point_.p[i * monomialCount_], part.xi) +
+                      inflated(Interval(point_.low[i]), point_.radius[i]));
       if (outputTool_->outputs) appendOutputs(piece, own, part.xi, ownOutputs);
       joinHulls(states, own);
       joinHulls(outputs, ownOutputs);

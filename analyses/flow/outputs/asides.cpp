@@ -29,7 +29,7 @@ std::vector<Interval> FlowAsides::enclose(double t, const FlowPoint& point, cons
     polynomial.assign(at(layout_->count()), 0.0);
     for (std::size_t m = 0; m < place_.size(); ++m) polynomial[at(place_[m])] = point.p[at(i) * place_.size() + m];
     series_.setState(i, polynomial.data());
-    away.push_back((point.radius[at(i)] + std::fabs(point.low[at(i)])) * bounds::up);
+    away.push_back((point.radius[i] + std::fabs(point.low[i])) * bounds::up);
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.compute(t, 1.0);

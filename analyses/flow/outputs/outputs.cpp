@@ -123,20 +123,20 @@ std::vector<double> FlowOutputs::addBeside(const FlowPoint& point, const std::ve
       spread[at(k)] =
           (series_.norm(node) - std::fabs(G[k]) * bounds::down + series_.rho0(node) + series_.rho1(node)) * bounds::up;
       const double slope = std::fabs(G[k]) + spread[at(k)];
-      sum += slope * (loose[at(k)] + point.beyond[at(k)]);
-      driven_[at(o)] += slope * point.known[at(k)];
+      sum += slope * (loose[at(k)] + point.beyond[k]);
+      driven_[at(o)] += slope * point.known[k];
     }
     for (int j = 0; j < n_; ++j) {
       double along0 = 0, size = 0, wide = 0, rest = 0;
       for (int k = 0; k < n_; ++k) {
-        const double psi0 = point.psi[at(k * n_ + j)];
+        const double psi0 = point.psi[k * n_ + j];
         along0 += G[k] * psi0;
-        size += std::fabs(G[k]) * point.psiSum[at(k * n_ + j)];
-        wide += spread[at(k)] * point.psiSum[at(k * n_ + j)];
-        rest += std::fabs(G[k]) * (point.psiSum[at(k * n_ + j)] - std::fabs(psi0) * bounds::down);
+        size += std::fabs(G[k]) * point.psiSum[k * n_ + j];
+        wide += spread[at(k)] * point.psiSum[k * n_ + j];
+        rest += std::fabs(G[k]) * (point.psiSum[k * n_ + j] - std::fabs(psi0) * bounds::down);
       }
-      sum += std::fabs(along0) * R[at(j)] + ((2 * n_ + 4) * bounds::unit * size + wide) * point.total[at(j)] +
-             rest * point.ofR[at(j)];
+      sum += std::fabs(along0) * R[at(j)] + ((2 * n_ + 4) * bounds::unit * size + wide) * point.total[j] +
+             rest * point.ofR[j];
     }
   }
   return centre;

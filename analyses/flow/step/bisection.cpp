@@ -31,10 +31,10 @@ double FlowStepper::relativeRemainder(const FlowSet& set) const {
   errorRadius(set, total);
   constexpr double little = 1e-3;  // of the greatest state in balanced units: one that has rested is no smaller than so
   double greatest = 0, largest = 0;
-  const auto unit = [&](int i) { return set.units.empty() ? 0 : set.units[at(i)]; };
-  for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[at(i)], -unit(i)));
+  const auto unit = [&](int i) { return set.units.empty() ? 0 : set.units[i]; };
+  for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[i], -unit(i)));
   for (int i = 0; i < n_; ++i) {
-    const double size = std::max(scale_[at(i)], std::ldexp(little * greatest, unit(i)));
+    const double size = std::max(scale_[i], std::ldexp(little * greatest, unit(i)));
     largest = std::max(largest, remainderOf(set, i, total) / size);
   }
   return largest;
@@ -62,7 +62,7 @@ std::vector<double> FlowStepper::symbolMass(std::vector<double>& byGrade) const 
     mass.assign(at(m.symbols()), 0.0);
     byGrade.assign(at(m.degree() + 1), 0.0);
     for (int node = 0; node < nodes; ++node) {
-      const double unit = areStates ? scale_[at(node)] : series_.norm(node);
+      const double unit = areStates ? scale_[node] : series_.norm(node);
       if (areStates || (unit > 0 && std::isfinite(unit))) add(node, from, unit);
     }
     return *std::max_element(mass.begin(), mass.end()) > 0;
@@ -74,7 +74,7 @@ std::vector<double> FlowStepper::symbolMass(std::vector<double>& byGrade) const 
 }
 
 int FlowStepper::worstSymbol() const {
-  if (symbolAcross_ >= 0) return symbolAcross_;
+  if (course_.symbolAcross >= 0) return course_.symbolAcross;
   std::vector<double> byGrade;
   const std::vector<double> mass = symbolMass(byGrade);
   return static_cast<int>(std::max_element(mass.begin(), mass.end()) - mass.begin());
@@ -102,8 +102,8 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
     const double middle = side == 0 ? -0.5 : 0.5;
     for (int i = 0; i < n_; ++i) {
       double norm = 0;
-      for (int g = 0; g < N; ++g) norm += std::fabs(set.p[at(i * N + g)]);
-      shift.substitute(symbol, middle, 0.5, &set.p[at(i * N)], &s.p[at(i * N)]);
+      for (int g = 0; g < N; ++g) norm += std::fabs(set.p[i * N + g]);
+      shift.substitute(symbol, middle, 0.5, &set.p[i * N], &s.p[at(i * N)]);
       if (norm != 0)  // zero stays zero, exactly: what rests does so in both halves
         s.W[at(i)] = (s.W[at(i)] + shift.shiftError() * norm) * bounds::up + bounds::tiny;
     }

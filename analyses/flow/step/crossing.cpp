@@ -24,13 +24,13 @@ double besides(double bound, double value) {
 }  // namespace
 
 /// ∂f_state/∂(sign), or what holds those that arrive.
-FlowStepper::Push FlowStepper::pushOf(const Crossing& crossing, std::size_t state) const {
+FlowStepper::Push FlowStepper::pushOf(const StepCrossing& crossing, std::size_t state) const {
   const auto jumps = static_cast<int>(series_.kinks().jumps().size()), i = static_cast<int>(state);
   if (crossing.arrives) return {&crossing.held->series(), crossing.held->series().outputNode(i)};
   return {&series_, series_.outputNode(n_ + n_ * n_ + n_ * inputs_.count() + i * jumps + crossing.jump)};
 }
 
-bool FlowStepper::loadHeldPush(const FlowSet& set, Crossing& crossing) {
+bool FlowStepper::loadHeldPush(const FlowSet& set, StepCrossing& crossing) {
   const auto jump = at(crossing.jump);
   auto place = heldPushes_.find({crossing.jump, crossing.before > 0});
   if (place == heldPushes_.end())
@@ -99,11 +99,11 @@ Box FlowStepper::boxWithin(const std::vector<double>& reach) const {
 bool FlowStepper::leavesKinkSides(const std::vector<JumpBound>& atStart, const std::vector<Interval>& u, double h) {
   const bool areRatesOfAll = !turn_ || !turn_->releases();
   bool isLeft = false;
-  for (std::size_t k = 0; k < kinkSides_.size(); ++k) {
-    if (kinkSides_[k] == 0 || k == passing_ || !contains(u[k], 0.0)) continue;
+  for (std::size_t k = 0; k < assumed_.kinkSides.size(); ++k) {
+    if (assumed_.kinkSides[k] == 0 || k == assumed_.passing || !contains(u[k], 0.0)) continue;
     const Interval over = atStart[k].start + Interval(0.0, h) * kinkRates_[k];
     if (areRatesOfAll && isCommon(over) && !contains(over, 0.0)) continue;
-    kinkSides_[k] = 0;
+    assumed_.kinkSides[k] = 0;
     isLeft = true;
   }
   return isLeft;
@@ -113,22 +113,22 @@ bool FlowStepper::leavesKinkSides(const std::vector<JumpBound>& atStart, const s
 FlowStepper::Look FlowStepper::passKinks(const std::vector<JumpBound>& bounds, double h, double left) {
   bool isNew = false;
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
-    if (k == passing_ || (!kinkSides_.empty() && kinkSides_[k] != 0)) continue;
+    if (k == assumed_.passing || (!assumed_.kinkSides.empty() && assumed_.kinkSides[k] != 0)) continue;
     // Those that move away stay on their side, or do not come so far.
     const Interval over = bounds[k].start + Interval(0.0, h) * kinkRates_[k];
     if (!contains(bounds[k].over, 0.0) || contains(bounds[k].start, 0.0) || !isCommon(over)) continue;
     if (!contains(over, 0.0)) {
       if (!series_.kinks().giveSide(kinks_->node(k), over.lower() > 0 ? 1 : -1)) continue;
-      givenAt_ = h;
+      assumed_.givenAt = h;
       isNew = true;
       continue;
     }
     const auto crossing = bounds[k].crossing();
     const bool passes = crossing && (crossing->moment.upper() <= h || h >= left);
     // In a longer step, or intervals do not tell.
-    if ((!passes || stops_) && passing_ == none && !turn_ && mayPassAsTurn(k)) {
-      passing_ = k;
-      passingFrom_ = bounds[k].start.lower() > 0 ? 1 : -1;
+    if ((!passes || stops_) && assumed_.passing == none && !turn_ && mayPassAsTurn(k)) {
+      assumed_.passing = k;
+      assumed_.passingFrom = bounds[k].start.lower() > 0 ? 1 : -1;
       return Look::unsided;
     }
     if (!passes || turn_) continue;
@@ -150,13 +150,13 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
   std::vector<Interval> u, uAtStart, rates;
   const Interval began(set.t);
   kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
-  if (passing_ != none && contains(u[passing_], 0.0)) {
+  if (assumed_.passing != none && contains(u[assumed_.passing], 0.0)) {
     const Look look = turn_ ? Look::released : lookAtPassage(set, h, smallest);
     if (look == Look::released) {  // known better otherwise
-      passing_ = none;
-      mayPass_ = std::exchange(isPassingAssumed_, false);
-      isTurnMixed_ = false;
-      lift_.clear();
+      assumed_.passing = none;
+      assumed_.mayPass = std::exchange(assumed_.isPassing, false);
+      course_.isTurnMixed = false;
+      assumed_.lift.clear();
       return Look::unsided;
     }
     if (look != Look::goOn) return look;
@@ -171,8 +171,8 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     bounds[k].up = bounds[k].down = kinkRates_[k];
   }
   if (leavesKinkSides(atStart, u, h)) return Look::unsided;
-  for (std::size_t k = 0; k < kinkSides_.size(); ++k)
-    if (k == passing_ || kinkSides_[k] != 0) bounds[k] = atStart[k] = {};
+  for (std::size_t k = 0; k < assumed_.kinkSides.size(); ++k)
+    if (k == assumed_.passing || assumed_.kinkSides[k] != 0) bounds[k] = atStart[k] = {};
   const double longest = longestToCross(bounds, atStart, h, smallest);
   if (longest < 0.99 * h && h > smallest) {
     h = std::max(longest, smallest);
@@ -183,7 +183,7 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     if (const auto crossing = bound.crossing(); crossing && h < left && contains(bound.over, 0.0))
       longer = std::max(longer, crossing->moment.upper() > h ? beyondTheLast * crossing->moment.upper() : 0.0);
   constexpr int mostTries = 8;
-  if (longer > h && longer < 4 * h && ++lengthened_ < mostTries) {
+  if (longer > h && longer < 4 * h && ++course_.lengthened < mostTries) {
     h = std::min(longer, left);
     return Look::longer;
   }
@@ -214,21 +214,21 @@ std::vector<BoundedPolynomial> FlowStepper::argumentAlong(const FlowSet& set, co
 }
 
 /// Adds what moves u besides ũ and what the set's remainder is at the step's start, until `last`, in units of σ.
-void FlowStepper::addBesides(const Crossing& crossing, double last, double& sum) const {
+void FlowStepper::addBesides(const StepCrossing& crossing, double last, double& sum) const {
   const LinearForm& form = *crossing.form;
   const std::size_t n = at(n_);
   for (std::size_t i = 0; i < n; ++i) {
     if (form.states[i] == 0) continue;
     double own = crossed_[i] + driven_[i];
     for (int j = 0; j < n_; ++j)
-      own += epsilon_[i * n + at(j)] * (total_[at(j)] + inputs_.total(j)) +
-             last * series_.frameDerivativeNorm(static_cast<int>(i), j, 1, theta_) * total_[at(j)];
+      own += epsilon_[i * n + at(j)] * (total_[j] + inputs_.total(j)) +
+             last * series_.frameDerivativeNorm(static_cast<int>(i), j, 1, theta_) * total_[j];
     sum += std::fabs(form.states[i]) * own;
   }
 }
 
 /// What another crossing makes of u from its moment on.
-double FlowStepper::changedBy(const Crossing& other, const Crossing& crossing) const {
+double FlowStepper::changedBy(const StepCrossing& other, const StepCrossing& crossing) const {
   const double since = (std::min(crossing.moments.upper(), h_) - other.moments.lower()) * bounds::up;
   if (&other == &crossing || !(since > 0)) return 0;
   double leads = 0, most = 0, bent = 0;
@@ -260,7 +260,7 @@ std::vector<BoundedPolynomial> FlowStepper::areaOf(const std::vector<BoundedPoly
 
 /// Before it passes, u = ũ + w with ũ = c·x̃ + …, w = c·(Ψ̃(r + Γs) + z + D of the others). From ũ(m(ξ)) = ε and u = 0
 /// follows moment = m(ξ) - (w + ε)/ũ', ũ' a mean of the polynomial's own rate. False if that may be zero.
-bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
+bool FlowStepper::boundMoment(const FlowSet& set, StepCrossing& crossing) const {
   const LinearForm& form = *crossing.form;
   const std::size_t n = at(n_);
   const bool passAll = crossing.moments.upper() <= h_;  // else the horizon comes before
@@ -280,7 +280,7 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
   const Interval perUnit = Interval(1.0) / rate;
   double others = left;
   addBesides(crossing, last, others);
-  for (const Crossing& other : crossings_) others += changedBy(other, crossing);
+  for (const StepCrossing& other : crossings_) others += changedBy(other, crossing);
   crossing.remainder = 0;
   for (std::size_t j = 0; j < n; ++j) {
     double sum = 0;
@@ -309,7 +309,7 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
 }
 
 /// K = J B - B' at the step's start and centre, and what ℓ(J̄B̃ - B̃' - K) and B̄ - B̃ are beside it.
-void FlowStepper::boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const {
+void FlowStepper::boundCurvature(StepCrossing& crossing, double longest, std::vector<double>& rest) const {
   for (int i = 0; i < n_; ++i) {
     const Push push = pushOf(crossing, at(i));
     const double turn = push.of->series(push.node)[1] / h0_;
@@ -333,7 +333,7 @@ void FlowStepper::boundCurvature(Crossing& crossing, double longest, std::vector
 
 /// |u| = before u until it passes, -before u from then on. With B about ∂f/∂|u|, D = -2 before B ∫(ũ + c·Ψ̃(r + Γs))
 /// from then on, so |D| ≤ Kℓ² + 2 drift ℓ, K = |B u̇|. False if rates or pushes are not bounded.
-bool FlowStepper::boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest) {
+bool FlowStepper::boundCurvatureOfKink(StepCrossing& crossing, double longest, std::vector<double>& rest) {
   const Interval rate = kinkRates_[at(crossing.kink)];
   const std::vector<Interval> push = kinks_->pushOf(at(crossing.kink));
   double apart = 0;  // of u and ũ + c·Ψ̃(r + Γs)
@@ -354,7 +354,7 @@ bool FlowStepper::boundCurvatureOfKink(Crossing& crossing, double longest, std::
 /// δ without what these signs do; of kinks (B̄ - B)u + B(u - ũ - c·Ψ̃(r + Γs)) + J̄D stands in the brackets.
 void FlowStepper::boundCrossings(const FlowSet& set) {
   if (crossings_.empty()) return;
-  for (const Crossing& crossing : crossings_) series_.kinks().setApart(crossing.node, true);
+  for (const StepCrossing& crossing : crossings_) series_.kinks().setApart(crossing.node, true);
   bool isBounded = series_.bound(nullptr, false);
   std::vector<double> rest(at(n_), 0.0), last(at(n_), 0.0);
   for (int i = 0; i < n_ && isBounded; ++i) {
@@ -362,9 +362,9 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
     rest[at(i)] = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
     last[at(i)] = series_.rho1(f);
   }
-  for (const Crossing& crossing : crossings_) series_.kinks().setApart(crossing.node, false);
+  for (const StepCrossing& crossing : crossings_) series_.kinks().setApart(crossing.node, false);
   isBounded = series_.bound(E_.data(), false) && isBounded;
-  for (Crossing& crossing : crossings_) {
+  for (StepCrossing& crossing : crossings_) {
     isBounded = isBounded && series_.slopeOf(crossing.node) == crossing.before;
     if (isBounded && crossing.arrives) isBounded = loadHeldPush(set, crossing);
     if (!isBounded) break;
@@ -384,16 +384,16 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
   for (int i = 0; i < n_; ++i) {
     double sum = inputs_.rest(i);
     for (int j = 0; j < n_; ++j)
-      sum += growth_.M1(i, j) * rest[at(j)] + growth_.M2(i, j) * last[at(j)] + growth_.M0(i, j) * set.W[at(j)];
+      sum += growth_.M1(i, j) * rest[at(j)] + growth_.M2(i, j) * last[at(j)] + growth_.M0(i, j) * set.W[j];
     crossed_.push_back(sum * bounds::up + bounds::tiny);
   }
-  for (Crossing& crossing : crossings_) isBounded = isBounded && boundMoment(set, crossing);
+  for (StepCrossing& crossing : crossings_) isBounded = isBounded && boundMoment(set, crossing);
   if (!isBounded) crossings_.clear();
 }
 
 /// ℓ at τ: min(moment, τ) is the chord over what the moments may be, and as much as the corner rises above that; and
 /// how steep that chord is.
-std::pair<BoundedPolynomial, double> FlowStepper::sinceCrossing(const Crossing& crossing, double tau) {
+std::pair<BoundedPolynomial, double> FlowStepper::sinceCrossing(const StepCrossing& crossing, double tau) {
   const double first = crossing.moments.lower(), last = crossing.moments.upper();
   const double slope = tau >= last ? 1 : tau <= first ? 0 : (tau - first) / (last - first);
   Interval rest(tau);
@@ -412,7 +412,7 @@ std::pair<BoundedPolynomial, double> FlowStepper::sinceCrossing(const Crossing& 
 }
 
 /// ℓ²/2 at τ; of a kink the integral of ũ.
-BoundedPolynomial FlowStepper::areaSince(const Crossing& crossing, double tau, const BoundedPolynomial& l) const {
+BoundedPolynomial FlowStepper::areaSince(const StepCrossing& crossing, double tau, const BoundedPolynomial& l) const {
   BoundedPolynomial area = crossing.kink >= 0 ? BoundedPolynomial{{0.0}} : product(monomials(), l, l);
   area *= 0.5;
   if (crossing.kink < 0) return area;
@@ -430,7 +430,7 @@ BoundedPolynomial FlowStepper::areaSince(const Crossing& crossing, double tau, c
 }
 
 /// ∂f_state/∂(sign) at τ, without what its orders leave out; zero of a kink.
-BoundedPolynomial FlowStepper::pushAt(const Crossing& crossing, std::size_t state, double tau) const {
+BoundedPolynomial FlowStepper::pushAt(const StepCrossing& crossing, std::size_t state, double tau) const {
   BoundedPolynomial B{{0.0}};
   if (crossing.jump < 0) return B;
   const Push push = pushOf(crossing, state);
@@ -443,7 +443,7 @@ BoundedPolynomial FlowStepper::pushAt(const Crossing& crossing, std::size_t stat
   return B;
 }
 
-void FlowStepper::addCrossing(const FlowSet& set, const Crossing& crossing, double tau, FlowPoint& point) const {
+void FlowStepper::addCrossing(const FlowSet& set, const StepCrossing& crossing, double tau, FlowPoint& point) const {
   const std::size_t n = at(n_);
   const bool isKink = crossing.kink >= 0;
   if (isKink && tau <= crossing.moments.lower()) return;  // nothing of those that have not passed

@@ -193,10 +193,10 @@ void FlowStepper::leaveTogether(const FlowSet& set, const std::vector<Interval>&
   std::vector<char> isZero(count, 0);
   std::vector<double> signs(count, 0.0);
   for (std::size_t j = 0; j < count; ++j) {
-    isZero[j] = static_cast<char>(sides_[j] == 0 && isEqual(start[j], Interval(0.0)));
-    const bool isKnown = sides_[j] != 0 || isThin(bounds[j].sign);
+    isZero[j] = static_cast<char>(assumed_.sides[j] == 0 && isEqual(start[j], Interval(0.0)));
+    const bool isKnown = assumed_.sides[j] != 0 || isThin(bounds[j].sign);
     if (isZero[j] == 0 && !isKnown) return;
-    signs[j] = sides_[j] != 0 ? sides_[j] : isKnown ? midpoint(bounds[j].sign) : 0;
+    signs[j] = assumed_.sides[j] != 0 ? assumed_.sides[j] : isKnown ? midpoint(bounds[j].sign) : 0;
   }
   if (std::ranges::find(isZero, 1) == isZero.end()) return;
   for (std::size_t k = 0; k < left_.size() && !held_.empty(); ++k)
@@ -207,19 +207,19 @@ void FlowStepper::leaveTogether(const FlowSet& set, const std::vector<Interval>&
   for (std::size_t j = 0; j < about.size(); ++j)
     if (isZero[j] != 0 && std::fabs(about[j]) != 1) return;
   for (std::size_t j = 0; j < about.size(); ++j)
-    if (isZero[j] != 0) sides_[j] = about[j];
-  if (!about.empty()) leaving_ = isZero;
+    if (isZero[j] != 0) assumed_.sides[j] = about[j];
+  if (!about.empty()) assumed_.leaving = isZero;
 }
 
 bool FlowStepper::leavesTogether(const FlowSet& set, double h) {
-  std::vector<char> all = held_.empty() ? leaving_ : held_;
+  std::vector<char> all = held_.empty() ? assumed_.leaving : held_;
   std::vector<Interval> signs(all.size(), Interval(0.0));
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (!held_.empty() && held_[k] != 0) continue;
     const std::size_t own = held_.empty() ? k : at(left_[k]);
     const double sign = (held_.empty() ? 1 : factor_[k]) * series_.series(series_.kinks().jumps()[own])[0];
     if (std::fabs(sign) != 1) return false;
-    all[k] = leaving_[own];
+    all[k] = assumed_.leaving[own];
     signs[k] = Interval(sign);
   }
   HeldSigns* const together = heldSignsFor(all);

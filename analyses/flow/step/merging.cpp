@@ -134,7 +134,8 @@ void mergeGenerators(FlowSet& set, const Monomials& monomials, std::size_t most)
   }
   if (!extent.allFinite()) return;  // the next step fails
   Vector unit = Vector::Ones(n);
-  for (Eigen::Index i = 0; i < n && !set.units.empty(); ++i) unit(i) = std::ldexp(1.0, set.units[at(i)]);
+  for (Eigen::Index i = 0; i < n && !set.units.empty(); ++i)
+    unit(i) = std::ldexp(1.0, set.units[static_cast<std::size_t>(i)]);
 
   const std::vector<char> isMerged = least(lossesOf(extent, unit), count - most + at(n));
   Vector box = Vector::Zero(n);

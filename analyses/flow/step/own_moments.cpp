@@ -55,7 +55,7 @@ std::vector<BoundedPolynomial> moved(const Monomials& monomials, const std::vect
 }  // namespace
 
 /// X of describeSince from X_0 on, which is there: X_{k+1} (k + 1) is the k-th order of f_a along X.
-void FlowStepper::followOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
+void FlowStepper::followOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn) {
   const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
   AlongStep& following = turn.of->following();
   for (std::size_t order = 0; order + 1 < turn.fromMoment[0].size(); ++order) {
@@ -76,7 +76,7 @@ void FlowStepper::followOnceTurned(const FlowSet& set, const std::vector<Interva
 
 /// What solutions are from m(ξ) on until they are stopped, by orders of s = σ - m(ξ), s no less than -a: X_0 = x̃(m).
 /// D is X - x̃, so that |D(m)| is what x̃(m) is truncated by.
-bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
+bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn) {
   constexpr std::size_t few = 4;
   const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
   turn.lag = lagOf(turn.away, h_);
@@ -131,7 +131,7 @@ bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>&
 /// By orders of the time from a before m(ξ) on, as AlongStep takes it: X(s' - a), by synthetic division. That is six
 /// steps of two roundings each; a product a c_{k+1} that cancels in order k is less than span c_{k+1}, so all that is
 /// off is less than 16 roundings of Σ |c_k| span^k.
-std::vector<double> FlowStepper::statesSince(const Turn& turn) const {
+std::vector<double> FlowStepper::statesSince(const StepTurn& turn) const {
   const std::size_t N = at(series_.count()), orders = at(m_) + 1;
   const double before = turn.away / h0_;
   std::vector<double> result(at(n_) * N * orders, 0.0);
@@ -147,7 +147,7 @@ std::vector<double> FlowStepper::statesSince(const Turn& turn) const {
 }
 
 /// GΨ̃ at m(ξ), of the columns that there is something of.
-std::vector<BoundedPolynomial> FlowStepper::guardOfFrame(const Turn& turn) const {
+std::vector<BoundedPolynomial> FlowStepper::guardOfFrame(const StepTurn& turn) const {
   const std::size_t n = at(n_);
   std::vector<BoundedPolynomial> result(n, {std::vector<double>(at(series_.count()), 0.0)});
   for (std::size_t j = 0; j < n; ++j)
@@ -162,7 +162,7 @@ std::vector<BoundedPolynomial> FlowStepper::guardOfFrame(const Turn& turn) const
 /// Of the turn that has been proved: |z| so soon after m(ξ), and so after a solution's own moment, at most. As in
 /// jumpAtMoment, but S is d(ξ) GΨ̃ at m(ξ), polynomials in ξ. `before`: |z| until the moment; `rest`: what z is driven
 /// by from then on, with S constant.
-void FlowStepper::boundSoon(Turn& turn, const std::vector<Interval>& J, const std::vector<double>& before,
+void FlowStepper::boundSoon(StepTurn& turn, const std::vector<Interval>& J, const std::vector<double>& before,
                             const std::vector<double>& rest, const std::vector<double>& slack) {
   const std::size_t n = at(n_);
   turn.lag = lagOf(turn.away, h_);
@@ -218,7 +218,7 @@ void FlowStepper::boundSoon(Turn& turn, const std::vector<Interval>& J, const st
 /// none turn, e1 holds at every time of the step.
 void FlowStepper::evaluateAt(const BoundedPolynomial& moment, FlowPoint& point) const {
   const std::size_t n = at(n_), N = at(series_.count()), NJ = at(series_.frameCount()), orders = at(m_) + 1;
-  const Turn* const turn = turn_ ? &*turn_ : nullptr;
+  const StepTurn* const turn = turn_ ? &*turn_ : nullptr;
   point.p.assign(n * N, 0.0);
   point.low.assign(n, 0.0);
   point.known.assign(n, 0.0);
@@ -291,13 +291,13 @@ void FlowStepper::advanceTo(const BoundedPolynomial& moment, FlowSet& set) {
 /// Linear in ξ, by least squares: of each state as a share of what it is at most.
 bool FlowStepper::findMeeting(const std::vector<double>& weights) {
   constexpr double ofStep = 0.9, least = 0x1p-3, gain = 0.75;
-  if (turn_ || isOpaque() || isSliding_ || !inputs_.empty()) return false;
+  if (turn_ || isOpaque() || course_.isSliding || !inputs_.empty()) return false;
   const int symbols = monomials().symbols();
   std::vector<double> rates, beside;  // of each state; [state][symbol]
   double square = 0, before = 0, after = 0, spread = 0;
   for (int i = 0; i < n_; ++i) {
     if (weights[at(i)] == 0) continue;
-    const double size = std::max(scale_[at(i)], bounds::tiny) / weights[at(i)];
+    const double size = std::max(scale_[i], bounds::tiny) / weights[at(i)];
     const auto at = [&](const double* c, bool rate) {
       double value = 0, slope = 0;
       for (int order = m_; order >= 0; --order) {
@@ -349,7 +349,7 @@ double FlowStepper::radiusOver(int state, bool hasTurned) const {
       series_.lowNorm(state) + (hasTurned ? crossed_[i] + turn_->leapt[i] + longest * bounds::up * turn_->turned[i]
                                 : turn_   ? turn_->before[i]
                                           : e1_[i]);
-  for (int j = 0; j < n_; ++j) radius += (series_.frameNorm(state, j) + epsilon_[at(state * n_ + j)]) * total_[at(j)];
+  for (int j = 0; j < n_; ++j) radius += (series_.frameNorm(state, j) + epsilon_[state * n_ + j]) * total_[j];
   return radius * bounds::up + bounds::tiny;
 }
 

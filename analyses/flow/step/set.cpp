@@ -198,7 +198,7 @@ void reframe(FlowSet& set, const Eigen::MatrixXd& C, std::vector<double>& column
   const Eigen::MatrixXd driven = C * before;
   const Eigen::VectorXd rounded =
       (n + 1) * bounds::unit * (C.cwiseAbs() * (before.cwiseAbs() * Eigen::VectorXd::Ones(before.cols())));
-  for (int i = 0; i < n; ++i) set.W[at(i)] = (set.W[at(i)] + rounded(i)) * bounds::up;
+  for (int i = 0; i < n; ++i) set.W[i] = (set.W[i] + rounded(i)) * bounds::up;
   columns.assign(driven.data(), driven.data() + driven.size());
 }
 
@@ -213,11 +213,11 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
     double dropped = 0;
     for (int g = 0; g < N; ++g)
       if (const int number = to.find(from, g); number >= 0)
-        p[at(i * newN + number)] = set.p[at(i * N + g)];
+        p[at(i * newN + number)] = set.p[i * N + g];
       else
-        dropped += std::fabs(set.p[at(i * N + g)]);
-    if (!set.low.empty()) dropped += std::fabs(set.low[at(i)]);
-    set.W[at(i)] += dropped;
+        dropped += std::fabs(set.p[i * N + g]);
+    if (!set.low.empty()) dropped += std::fabs(set.low[i]);
+    set.W[i] += dropped;
   }
   set.low.clear();
   for (int i = 0; i < n; ++i) {
@@ -227,7 +227,7 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
       p[at(i * newN + to.linear(from.symbols() + j))] = coefficient;
       rounded += bounds::unit * std::fabs(coefficient);
     }
-    set.W[at(i)] = (set.W[at(i)] + rounded) * bounds::up + bounds::tiny;
+    set.W[i] = (set.W[i] + rounded) * bounds::up + bounds::tiny;
   }
   changeMonomials(set.ahead, from, to);
   set.p = std::move(p);
@@ -236,7 +236,7 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
   reframe(set, C, set.inputs);
   for (std::vector<double>& columns : set.inputsOfXi) reframe(set, C, columns);
   set.C.assign(at(n * n), 0.0);
-  for (int i = 0; i < n; ++i) set.C[at(i * n + i)] = 1;
+  for (int i = 0; i < n; ++i) set.C[i * n + i] = 1;
   set.R.assign(at(n), 0.0);
   set.generators.clear();
   set.powers = at(to.countUpTo(frameDegree));

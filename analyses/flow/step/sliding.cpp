@@ -204,7 +204,7 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
 /// What comes to be held or leaves does so over a time Δ, in which the set loses its dependence on ξ in what moves
 /// then: of its width, about a quarter of what the motion turns in that time; what the signs, unknown meanwhile, do to
 /// states besides; and a quarter of what both do to states that follow, or are pushed by the same sign. The symbol to
-/// bisect for less; -1 for none. Sets slideLoss_.
+/// bisect for less; -1 for none. Sets course_.slideLoss.
 int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) {
   if (!(shares.kink > 0) || set.slideStep > 0) return -1;
   const int N = series_.count();
@@ -245,20 +245,20 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) 
     symbol = worst;
   }
   constexpr double leastPart = 0x1p-6, lost = 0.25;
-  if (symbol < 0 || at(symbol) >= set.half.size() || set.half[at(symbol)] <= leastPart) return -1;
-  const double part = set.half[at(symbol)], steps = longest / h_;
+  if (symbol < 0 || at(symbol) >= set.half.size() || set.half[symbol] <= leastPart) return -1;
+  const double part = set.half[symbol], steps = longest / h_;
   bool isTooWide = lost * longest * growth_.growth() / h_ > shares.kink / part;
   for (int i = 0; i < n_; ++i) {
     if (isPivot[at(i)] != 0) continue;
     double added = 0, width = 0;
-    for (int j = 0; j < n_; ++j) added += steps * growth_.M1(i, j) * delta0_[at(j)];
-    for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
-    const double lacking = unknown[at(i)] + 0.5 * longest * delta0_[at(i)];  // the latter of all signs together
-    const double least = 1e-9 * scale_[at(i)], later = width + lacking;
+    for (int j = 0; j < n_; ++j) added += steps * growth_.M1(i, j) * delta_[j].e0;
+    for (int g = 1; g < N; ++g) width += std::fabs(set.p[i * N + g]);
+    const double lacking = unknown[at(i)] + 0.5 * longest * delta_[i].e0;  // the latter of all signs together
+    const double least = 1e-9 * scale_[i], later = width + lacking;
     isTooWide = isTooWide || (added > shares.kink / part * width && width > least);
-    if (later > least) slideLoss_ = std::max(slideLoss_, lost * lacking / later * part);
+    if (later > least) course_.slideLoss = std::max(course_.slideLoss, lost * lacking / later * part);
   }
-  return isTooWide || (shares.slide > 0 && slideLoss_ > shares.slide) ? symbol : -1;
+  return isTooWide || (shares.slide > 0 && course_.slideLoss > shares.slide) ? symbol : -1;
 }
 
 Interval FlowStepper::argumentAtStart(const FlowSet& set, std::size_t own) const {
@@ -276,8 +276,8 @@ Interval FlowStepper::argumentAtStart(const FlowSet& set, std::size_t own) const
 /// step takes them to be there until its end, and finds how long they are (longestOnSides): until one comes to the jump
 /// they are solutions of the smooth f on that side.
 void FlowStepper::assumeSides(const FlowSet& set) {
-  sides_.clear();
-  leaving_.clear();
+  assumed_.sides.clear();
+  assumed_.leaving.clear();
   if (!own_) return;
   countAsGenerators([&] { totalRadius(set, total_); });
   const FlowJumps& own = own_->jumps();
@@ -291,26 +291,26 @@ void FlowStepper::assumeSides(const FlowSet& set) {
   }
   own_->setParameters(set.parameters);
   own_->bound(Interval(set.t), boxAtStart(set), start, 0, bounds);
-  sides_.assign(own.count(), 0.0);
+  assumed_.sides.assign(own.count(), 0.0);
   for (std::size_t j = 0; j < own.count(); ++j) {
     const JumpBound& bound = bounds[j];
     if (!bound.isKnown()) continue;
     if (start[j].lower() > 0 || (start[j].lower() == 0 && bound.up.lower() > 0 && bound.down.lower() > 0))
-      sides_[j] = 1;
+      assumed_.sides[j] = 1;
     if (start[j].upper() < 0 || (start[j].upper() == 0 && bound.up.upper() < 0 && bound.down.upper() < 0))
-      sides_[j] = -1;
+      assumed_.sides[j] = -1;
   }
   if (own.isAffine) leaveTogether(set, start, bounds);
-  if (std::ranges::all_of(sides_, [](double side) { return side == 0; })) sides_.clear();
+  if (std::ranges::all_of(assumed_.sides, [](double side) { return side == 0; })) assumed_.sides.clear();
 }
 
 /// Whether arguments are there wherever states are in this box.
 bool FlowStepper::staysOnSides(const FlowSet& set, const Box& box) const {
   const Box parameters = rangesOf(set.parameters);
-  for (std::size_t j = 0; j < sides_.size(); ++j) {
-    if (sides_[j] == 0) continue;
+  for (std::size_t j = 0; j < assumed_.sides.size(); ++j) {
+    if (assumed_.sides[j] == 0) continue;
     const Interval argument = rangeOf(*own_->jumps().forms[j], box, parameters);
-    if (!(sides_[j] > 0 ? argument.lower() > 0 : argument.upper() < 0)) return false;
+    if (!(assumed_.sides[j] > 0 ? argument.lower() > 0 : argument.upper() < 0)) return false;
   }
   return true;
 }
@@ -319,11 +319,11 @@ bool FlowStepper::staysOnSides(const FlowSet& set, const Box& box) const {
 /// rate points away from zero, and later is what its polynomial says.
 double FlowStepper::longestOnSides(double h) const {
   double longest = h;
-  for (std::size_t j = 0; j < sides_.size(); ++j) {
-    if (sides_[j] == 0) continue;
-    const double leaves = h0_ * ownRates_->awayUntil(j, sides_[j], sides_[j], 0, longest / h0_);
+  for (std::size_t j = 0; j < assumed_.sides.size(); ++j) {
+    if (assumed_.sides[j] == 0) continue;
+    const double leaves = h0_ * ownRates_->awayUntil(j, assumed_.sides[j], assumed_.sides[j], 0, longest / h0_);
     if (leaves < longest)
-      longest = std::max(leaves, h0_ * ownRates_->argumentAwayUntil(j, sides_[j], leaves / h0_, longest / h0_));
+      longest = std::max(leaves, h0_ * ownRates_->argumentAwayUntil(j, assumed_.sides[j], leaves / h0_, longest / h0_));
   }
   return longest;
 }
@@ -332,7 +332,7 @@ bool FlowStepper::loadRates(JumpRates& rates, const FlowSet& set, double h, cons
                             const std::vector<double>& tube) {
   std::vector<Interval> signs;
   for (const JumpBound& bound : bounds) signs.push_back(bound.sign);
-  takeKinkSides(rates, passingFrom_);
+  takeKinkSides(rates, assumed_.passingFrom);
   return rates.load(series_, set.t, h0_, h / h0_, set.parameters, signs, tube);
 }
 
@@ -347,7 +347,7 @@ bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const 
   for (std::size_t j = 0; j < own.count(); ++j) {
     const int sign = series_.kinks().jumps()[j];
     const double value = series_.series(sign)[0];
-    const bool isOnSide = !sides_.empty() && sides_[j] != 0;
+    const bool isOnSide = !assumed_.sides.empty() && assumed_.sides[j] != 0;
     if ((isOnSide || !series_.kinks().mayTurn(sign)) && std::fabs(value) == 1) bounds[j].sign = Interval(value);
     if (isOnSide ? areSidesClear_ : !series_.kinks().mayTurn(sign)) continue;
     any = true;
@@ -357,10 +357,10 @@ bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const 
   own_->setParameters(set.parameters);
   own_->bound(time, box, start, h, bounds, known);
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < sides_.size(); ++j) {
-    if (sides_[j] == 0) continue;
+  for (std::size_t j = 0; j < assumed_.sides.size(); ++j) {
+    if (assumed_.sides[j] == 0) continue;
     bounds[j].holds = bounds[j].maySlide = false;
-    const Interval side = sides_[j] > 0 ? Interval(0.0, infinite) : Interval(-infinite, 0.0);
+    const Interval side = assumed_.sides[j] > 0 ? Interval(0.0, infinite) : Interval(-infinite, 0.0);
     if (bounds[j].isKnown()) bounds[j].over = intersection(bounds[j].over, side);
   }
   return any;
@@ -379,7 +379,7 @@ std::vector<JumpBound> FlowStepper::sidedBounds() const {
   std::vector<JumpBound> bounds(own_->jumps().count());
   for (std::size_t j = 0; j < bounds.size(); ++j) {
     const double value = series_.series(series_.kinks().jumps()[j])[0];
-    const bool isOnSide = !sides_.empty() && sides_[j] != 0;
+    const bool isOnSide = !assumed_.sides.empty() && assumed_.sides[j] != 0;
     if ((isOnSide || !series_.kinks().mayTurn(series_.kinks().jumps()[j])) && std::fabs(value) == 1)
       bounds[j].sign = Interval(value);
   }
@@ -391,13 +391,14 @@ std::optional<FlowStepper::Look> FlowStepper::lookAtSides(const FlowSet& set, co
                                                           double smallest) {
   areSidesClear_ = staysOnSides(set, box);
   if (areSidesClear_) return {};  // E, not y: solutions are inside y until they leave their side
-  if (!leaving_.empty() && !leavesTogether(set, h)) {
-    sides_.clear();
+  if (!assumed_.leaving.empty() && !leavesTogether(set, h)) {
+    assumed_.sides.clear();
     return Look::unsided;
   }
-  const double longest =
-      loadRates(*ownRates_, set, h, sidedBounds(), lift_.empty() ? withLow(E_) : heldTube_) ? longestOnSides(h) : 0;
-  if (longest < h && longest > 0 && mayTurn_) {
+  const double longest = loadRates(*ownRates_, set, h, sidedBounds(), assumed_.lift.empty() ? withLow(E_) : heldTube_)
+                             ? longestOnSides(h)
+                             : 0;
+  if (longest < h && longest > 0 && assumed_.mayTurn) {
     const Look look = lookAtSurface(set, h, smallest);
     if (look != Look::released) return look;
     if (const std::optional<Look> again = withoutTurn()) return again;
@@ -405,7 +406,7 @@ std::optional<FlowStepper::Look> FlowStepper::lookAtSides(const FlowSet& set, co
   if (!(longest < h)) return {};
   constexpr double atLeast = 0x1p-6;  // of a step that is taken so
   if (longest < atLeast * h || longest < smallest) {
-    sides_.clear();
+    assumed_.sides.clear();
     return Look::unsided;
   }
   h = std::min(longest, 0.999 * h);
@@ -414,13 +415,13 @@ std::optional<FlowStepper::Look> FlowStepper::lookAtSides(const FlowSet& set, co
 
 /// There is no turn; whatever was lifted for one is bounded anew.
 std::optional<FlowStepper::Look> FlowStepper::withoutTurn() {
-  mayTurn_ = false;
+  assumed_.mayTurn = false;
   return withoutLift();
 }
 
 std::optional<FlowStepper::Look> FlowStepper::withoutLift() {
-  if (lift_.empty()) return {};
-  lift_.clear();
+  if (assumed_.lift.empty()) return {};
+  assumed_.lift.clear();
   return Look::shorter;
 }
 
@@ -478,8 +479,8 @@ std::optional<FlowStepper::Look> FlowStepper::lookAtHeld(const FlowSet& set, Aro
                                                          double smallest) {
   const std::optional<double> held = longestHeldIn(set, around, h, smallest);
   if (!held) return Look::shorter;
-  if (areHeld(heldBounds_)) return passing_ == none ? withoutLift() : std::nullopt;  // known better without
-  if (mayTurn_) {
+  if (areHeld(heldBounds_)) return assumed_.passing == none ? withoutLift() : std::nullopt;  // known better without
+  if (assumed_.mayTurn) {
     const Look look = lookAtRelease(set, h, smallest);
     if (look != Look::released) return look;
     if (const std::optional<Look> again = withoutTurn()) return again;
@@ -506,8 +507,8 @@ FlowStepper::Look FlowStepper::lookAtCrossings(const FlowSet& set, const Around&
                                               return bound.isKnown() && contains(bound.over, 0.0);
                                             }) == 1;
   const auto withoutSides = [&](std::vector<JumpBound> bounds) {  // these cross nothing
-    for (std::size_t j = 0; j < sides_.size(); ++j)
-      if (sides_[j] != 0) bounds[j] = {};
+    for (std::size_t j = 0; j < assumed_.sides.size(); ++j)
+      if (assumed_.sides[j] != 0) bounds[j] = {};
     return bounds;
   };
   double longest = longestToCross(withoutSides(ownBounds_), withoutSides(around.atStart), h, smallest, mayArrive),
@@ -515,7 +516,7 @@ FlowStepper::Look FlowStepper::lookAtCrossings(const FlowSet& set, const Around&
   std::vector<std::size_t> narrower;
   for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
     const JumpBound& bound = ownBounds_[j];
-    if (!sides_.empty() && sides_[j] != 0) continue;
+    if (!assumed_.sides.empty() && assumed_.sides[j] != 0) continue;
     const auto crossing = bound.crossing(mayArrive);
     const bool arrives = crossing && crossing->arrives, isNarrower = !arrives && width(bound.sign) < nearlyAny;
     const bool crosses = crossing && (crossing->moment.upper() <= h || (h == left && !arrives)) && !isNarrower;
@@ -534,7 +535,7 @@ FlowStepper::Look FlowStepper::lookAtCrossings(const FlowSet& set, const Around&
     if (!bound.isKnown() || !(slides || isNarrower || crosses)) continue;
     narrower.push_back(j);
     if (!slides) continue;
-    isSliding_ = true;
+    course_.isSliding = true;
     longest = std::min(longest, longestWhileSliding(bound, around.atStart[j], h, set.slideStep));
   }
   if (longest < 0.99 * h && h > smallest) {
@@ -542,7 +543,7 @@ FlowStepper::Look FlowStepper::lookAtCrossings(const FlowSet& set, const Around&
     return Look::shorter;
   }
   constexpr int mostTries = 8;
-  if (longer > h && longer < 4 * h && longest >= h && ++lengthened_ < mostTries) {
+  if (longer > h && longer < 4 * h && longest >= h && ++course_.lengthened < mostTries) {
     h = std::min(longer, left);
     return Look::longer;
   }
@@ -552,10 +553,10 @@ FlowStepper::Look FlowStepper::lookAtCrossings(const FlowSet& set, const Around&
 /// Signs that are known better than they were given.
 FlowStepper::Look FlowStepper::giveNarrower(const std::vector<std::size_t>& narrower, double h) {
   constexpr double muchShorter = 0.5;  // than when signs were given: they are known better now
-  if (narrower.empty() || (signsAt_ > 0 && h > muchShorter * signsAt_)) return Look::goOn;
-  signsAt_ = givenAt_ = h;
+  if (narrower.empty() || (assumed_.signsAt > 0 && h > muchShorter * assumed_.signsAt)) return Look::goOn;
+  assumed_.signsAt = assumed_.givenAt = h;
   for (const std::size_t j : narrower) {
-    const auto crossing = std::ranges::find(crossings_, static_cast<int>(j), &Crossing::jump);
+    const auto crossing = std::ranges::find(crossings_, static_cast<int>(j), &StepCrossing::jump);
     const double about = crossing == crossings_.end() ? midpoint(ownBounds_[j].sign) : crossing->before;
     series_.kinks().giveSign(series_.kinks().jumps()[j], ownBounds_[j].sign, ownBounds_[j].over, about);
   }
@@ -565,12 +566,12 @@ FlowStepper::Look FlowStepper::giveNarrower(const std::vector<std::size_t>& narr
 FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest, double left) {
   ownBounds_.clear();
   heldBounds_.clear();
-  isSliding_ = false;
+  course_.isSliding = false;
   const Interval began(set.t);
   Around around{{}, boxAtStart(set), began, began + Interval(0.0, h)};
   around.box = boxWithin(y_);  // proved: no more than E
   if (const std::optional<Look> look = lookAtSides(set, around.box, h, smallest)) return *look;
-  if (isLiftOfSurface_)  // known better without
+  if (assumed_.isLiftOfSurface)  // known better without
     if (const std::optional<Look> look = withoutLift()) return *look;
   const bool isAffine = !own_ || own_->jumps().isAffine;
   if (!isAffine && !holding_) return Look::goOn;
@@ -667,7 +668,7 @@ void FlowStepper::boundArrivals(const FlowSet& set) {
   arrives_.clear();
   bent_.clear();
   if (turn_) bent_ = turn_->jolt;
-  if (!isSliding_ || !own_ || !crossings_.empty() || !inputs_.empty() || monomials().symbols() == 0) return;
+  if (!course_.isSliding || !own_ || !crossings_.empty() || !inputs_.empty() || monomials().symbols() == 0) return;
   std::vector<Arrival> arrivals;
   std::vector<char> decided(at(n_), 0);
   for (std::size_t k = 0; k < ownBounds_.size(); ++k) {
@@ -707,13 +708,13 @@ void FlowStepper::boundArrivals(const FlowSet& set) {
     for (int j = 0; j < n_; ++j) {
       if (decided[at(j)] != 0) continue;
       const double carried = std::max(0.0, following_.M1(i, j) - (i == j ? h_ * bounds::down : 0.0));
-      sum += following_.M1(i, j) * delta0_[at(j)] + following_.M2(i, j) * delta1_[at(j)] +
-             following_.M0(i, j) * set.W[at(j)] + carried * std::max(begin[at(j)], end[at(j)]);
+      sum += following_.M1(i, j) * delta_[j].e0 + following_.M2(i, j) * delta_[j].e1 + following_.M0(i, j) * set.W[j] +
+             carried * std::max(begin[at(j)], end[at(j)]);
     }
     sum = sum * bounds::up + bounds::tiny;
-    if (!(sum < e1_[at(i)])) continue;
-    e1_[at(i)] = sum;
-    bent_[at(i)] = std::max(0.0, begin[at(i)] - end[at(i)]) * h_ / 8 * bounds::up;
+    if (!(sum < e1_[i])) continue;
+    e1_[i] = sum;
+    bent_[i] = std::max(0.0, begin[at(i)] - end[at(i)]) * h_ / 8 * bounds::up;
   }
 }
 
@@ -748,9 +749,9 @@ std::vector<Interval> FlowStepper::argumentsBehind(bool onceTurned) const {
   }
   std::vector<Interval> besides = turn_ ? turn_->besides : result;
   for (std::size_t j = 0; onceTurned && j < besides.size(); ++j)
-    if (sides_[j] != 0) {
+    if (assumed_.sides[j] != 0) {
       const bool isPassed = turn_->passesJump() && static_cast<int>(j) == turn_->own;
-      besides[j] = sideOf((sides_[j] > 0) != isPassed);
+      besides[j] = sideOf((assumed_.sides[j] > 0) != isPassed);
     }
   const Interval argument = !turn_ ? Interval::entire() : onceTurned ? turn_->soonArgument : turn_->argument;
   if (held_.empty()) {
@@ -811,20 +812,6 @@ std::vector<SignCases> FlowStepper::signs(std::size_t count, Of of) const {
     if (factor_[k] < 0) result[k] = result[k].mirrored();
   }
   return result;
-}
-
-/// Held until it leaves; on its side from then on. Or the other way round; or on one side, and then on the other.
-SignCases FlowStepper::Turn::during(const Interval& seconds) const {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  const Interval since(moments.lower(), infinite), until(0.0, moments.upper());
-  SignCases cases{.above = side > 0, .below = side < 0, .isHeldBetween = true};
-  if (passesJump()) {
-    cases = {.whileBetween = moments};
-    (side > 0 ? cases.whileBelow : cases.whileAbove) = until;
-  }
-  (side > 0 ? cases.whileAbove : cases.whileBelow) = arrives() ? until : since;
-  if (!passesJump()) cases.whileBetween = arrives() ? since : until;
-  return cases.during(seconds);
 }
 
 void FlowStepper::giveTurning(const Interval& seconds, std::vector<SignCases>& signs) const {

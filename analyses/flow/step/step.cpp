@@ -51,9 +51,10 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
   kinks_ = std::make_unique<FlowKinks>(motion, inputs_.parameters());
   if (kinks_->count() == 0) kinks_.reset();
   for (auto* v : {&epsilon_, &inTime_}) v->assign(at(n_ * n_), 0.0);
-  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &scale_, &floor_, &least_, &pace_, &second_, &third_,
-                  &turning_, &driven_, &heldTube_})
+  for (auto* v :
+       {&start_, &E_, &y_, &e1_, &scale_, &floor_, &least_, &pace_, &second_, &third_, &turning_, &driven_, &heldTube_})
     v->assign(at(n_), 0.0);
+  for (auto* v : {&delta_, &nu_}) v->resize(at(n_));
 }
 
 void FlowStepper::load(const FlowSet& set) {
@@ -76,13 +77,13 @@ void FlowStepper::load(const FlowSet& set) {
     least_[i] = scales_ ? std::max(floor_[i], heard * scales_->of(i, set.t)) : floor_[i];
   }
   const int N = series_.count();
-  for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
+  for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[i * N]);
   for (std::size_t i = 0; i < set.low.size(); ++i) series_.setStateLow(static_cast<int>(i), set.low[i]);
   for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
   std::vector<double> entry(at(series_.frameCount()), 0.0);  // constant at the start
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {
-      entry[0] = set.C[at(i * n_ + j)];
+      entry[0] = set.C[i * n_ + j];
       series_.setFrame(i, j, entry.data(), 1);
     }
 }
@@ -111,7 +112,7 @@ double FlowStepper::suggestion(double theta, double share) const {
   const double least = share * *std::ranges::max_element(sizes);
   double best = 1e9;
   for (int i = 0; i < n_; ++i) {
-    const double size = std::max({sizes[at(i)], least_[at(i)], pace_[at(i)], least});
+    const double size = std::max({sizes[at(i)], least_[i], pace_[i], least});
     for (int order : {m_ - 1, m_}) {
       const double last = norm(i, order);
       if (!std::isfinite(last)) return std::nan("");
@@ -151,7 +152,7 @@ bool FlowStepper::areJumpsClear(const FlowSet& set) const {
   if (std::ranges::any_of(own_->jumps().f.nodes(), isKink)) return false;
   const std::vector<int>& jumps = series_.kinks().jumps();
   for (std::size_t j = 0; j < jumps.size(); ++j)
-    if ((sides_.empty() || sides_[j] == 0) && series_.kinks().mayTurn(jumps[j])) return false;
+    if ((assumed_.sides.empty() || assumed_.sides[j] == 0) && series_.kinks().mayTurn(jumps[j])) return false;
   return staysOnSides(set, boxWithin(E_));
 }
 
@@ -169,8 +170,8 @@ bool FlowStepper::boundAlong() {
   for (int i = 0; i < n_; ++i) {
     const int f = series_.outputNode(i);
     // δ = x̃' - f(x̃): the bound of f's node, and the rounding in the division by i+1.
-    delta0_[at(i)] = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
-    delta1_[at(i)] = series_.rho1(f);
+    delta_[i].e0 = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
+    delta_[i].e1 = series_.rho1(f);
   }
   return true;
 }
@@ -178,13 +179,13 @@ bool FlowStepper::boundAlong() {
 /// y = prop(δ + |∂f/∂w| |w|) + e^{Ah} (|C|R + W)
 void FlowStepper::boundTube() {
   std::vector<double> pushed(at(n_), 0.0);
-  for (int i = 0; i < n_; ++i) pushed[at(i)] = delta0_[at(i)] + inputs_.push(series_, i);
+  for (int i = 0; i < n_; ++i) pushed[at(i)] = delta_[i].e0 + inputs_.push(series_, i);
   for (int i = 0; i < n_; ++i) {
     double y = 0;
     for (int j = 0; j < n_; ++j)
-      y += growth_.M1(i, j) * pushed[at(j)] + growth_.M2(i, j) * delta1_[at(j)] + growth_.M0(i, j) * start_[at(j)];
-    y_[at(i)] = (lift_.empty() ? y : y + lift_[at(i)]) * bounds::up + bounds::tiny;
-    heldTube_[at(i)] = (y + series_.lowNorm(i)) * bounds::up + bounds::tiny;
+      y += growth_.M1(i, j) * pushed[at(j)] + growth_.M2(i, j) * delta_[j].e1 + growth_.M0(i, j) * start_[j];
+    y_[i] = (assumed_.lift.empty() ? y : y + assumed_.lift[at(i)]) * bounds::up + bounds::tiny;
+    heldTube_[i] = (y + series_.lowNorm(i)) * bounds::up + bounds::tiny;
   }
 }
 
@@ -192,15 +193,15 @@ void FlowStepper::boundTube() {
 bool FlowStepper::proveTube(const FlowSet& set, double h) {
   for (int attempt = 0; attempt < 4; ++attempt) {
     for (int i = 0; i < n_; ++i) {
-      E_[at(i)] = y_[at(i)] * (attempt == 0 ? 1.05 : 1.3);
-      if (!(E_[at(i)] < bounds::largest)) return false;
+      E_[i] = y_[i] * (attempt == 0 ? 1.05 : 1.3);
+      if (!(E_[i] < bounds::largest)) return false;
     }
     if (!series_.bound(E_.data(), false)) return refuse();
     if (series_.kinks().hasJumped() && !(boundAlong() && series_.bound(E_.data(), false))) return refuse();
     if (!boundGrowth(set, h)) return false;
     boundTube();
     bool isProved = true;
-    for (int i = 0; i < n_; ++i) isProved = isProved && y_[at(i)] < E_[at(i)];
+    for (int i = 0; i < n_; ++i) isProved = isProved && y_[i] < E_[i];
     if (isProved) return true;
   }
   return false;
@@ -211,29 +212,29 @@ bool FlowStepper::proveTube(const FlowSet& set, double h) {
 void FlowStepper::adjustScales() {
   double greatest = 0;  // of all states, in balanced units
   const std::vector<int>& units = growth_.units();
-  for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[at(i)], -units[at(i)]));
+  for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[i], -units[at(i)]));
   for (int i = 0; i < n_; ++i) {
-    const bool isUnknown = y_[at(i)] > scale_[at(i)] && monomials().symbols() > 0;
-    scale_[at(i)] = std::max(scale_[at(i)], hardlyMoving * y_[at(i)]);
-    if (isUnknown) scale_[at(i)] = std::max(scale_[at(i)], std::ldexp(greatest, units[at(i)]));
+    const bool isUnknown = y_[i] > scale_[i] && monomials().symbols() > 0;
+    scale_[i] = std::max(scale_[i], hardlyMoving * y_[i]);
+    if (isUnknown) scale_[i] = std::max(scale_[i], std::ldexp(greatest, units[at(i)]));
   }
 }
 
 /// What the step leaves over of the states.
 void FlowStepper::boundErrors(const FlowSet& set) {
-  timeError_ = truncation_ = 0;
+  lost_.time = lost_.truncation = 0;
   for (int i = 0; i < n_; ++i) {
     double time = 0, truncation = 0, kept = 0;
     for (int j = 0; j < n_; ++j) {
-      truncation += growth_.M1(i, j) * delta0_[at(j)];
-      time += growth_.M2(i, j) * delta1_[at(j)];
-      kept += growth_.M0(i, j) * set.W[at(j)];
+      truncation += growth_.M1(i, j) * delta_[j].e0;
+      time += growth_.M2(i, j) * delta_[j].e1;
+      kept += growth_.M0(i, j) * set.W[j];
     }
-    e1_[at(i)] = (time + truncation + kept + inputs_.rest(i)) * bounds::up + bounds::tiny;
-    driven_[at(i)] = 0;
-    for (int j = 0; j < n_; ++j) driven_[at(i)] += series_.frameNorm(i, j) * inputs_.total(j) * bounds::up;
-    timeError_ = std::max(timeError_, time / scale_[at(i)]);
-    truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
+    e1_[i] = (time + truncation + kept + inputs_.rest(i)) * bounds::up + bounds::tiny;
+    driven_[i] = 0;
+    for (int j = 0; j < n_; ++j) driven_[i] += series_.frameNorm(i, j) * inputs_.total(j) * bounds::up;
+    lost_.time = std::max(lost_.time, time / scale_[i]);
+    lost_.truncation = std::max(lost_.truncation, truncation / scale_[i]);
   }
 }
 
@@ -241,26 +242,26 @@ void FlowStepper::boundErrors(const FlowSet& set) {
 void FlowStepper::boundFrameErrors(const FlowSet& set) {
   std::vector<double> left(at(n_), 0.0);  // of |Ψ| total, out of time
   for (int j = 0; j < n_; ++j) {
-    for (int i = 0; i < n_; ++i) nu_[at(i)] = series_.frameDefect(i, j);
+    for (int i = 0; i < n_; ++i) nu_[i] = series_.frameDefect(i, j);
     for (int i = 0; i < n_; ++i) {
       double s = 0, time = 0;
       for (int l = 0; l < n_; ++l) {
-        s += growth_.M1(i, l) * nu_[at(l)].e0;
-        time += growth_.M2(i, l) * nu_[at(l)].e1;
+        s += growth_.M1(i, l) * nu_[l].e0;
+        time += growth_.M2(i, l) * nu_[l].e1;
       }
-      epsilon_[at(i * n_ + j)] = (s + time) * bounds::up;
-      left[at(i)] += time * total_[at(j)];
-      inTime_[at(i * n_ + j)] = time;
+      epsilon_[i * n_ + j] = (s + time) * bounds::up;
+      left[at(i)] += time * total_[j];
+      inTime_[i * n_ + j] = time;
     }
   }
   double most = 0, all = 0;
   for (int i = 0; i < n_; ++i) {
     const double unit = std::ldexp(1.0, -growth_.units()[at(i)]);
     most = std::max(most, unit * left[at(i)]);
-    all = std::max(all, unit * start_[at(i)]);
+    all = std::max(all, unit * start_[i]);
   }
-  frameError_ = all > 0 ? most / all : 0;
-  if (growth_.isDamped()) frameError_ = std::max(frameError_, mostOfFrame / mostOfColumn * worstColumn(set));
+  lost_.frame = all > 0 ? most / all : 0;
+  if (growth_.isDamped()) lost_.frame = std::max(lost_.frame, mostOfFrame / mostOfColumn * worstColumn(set));
 }
 
 bool FlowStepper::tryStep(const FlowSet& set, double theta) {
@@ -269,10 +270,10 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   series_.kinks().forgetJumps();
   if (!series_.tabulate(theta) || !boundAlong()) return refuse();
   for (int i = 0; i < n_; ++i) {
-    scale_[at(i)] = std::max(series_.norm(i), least_[at(i)]);
-    double start = set.W[at(i)];
-    for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
-    start_[at(i)] = start * bounds::up;
+    scale_[i] = std::max(series_.norm(i), least_[i]);
+    double start = set.W[i];
+    for (int j = 0; j < n_; ++j) start += std::fabs(set.C[i * n_ + j]) * total_[j];
+    start_[i] = start * bounds::up;
   }
   if (!boundGrowth(set, h)) return false;
   boundTube();
@@ -296,10 +297,10 @@ double FlowStepper::worstColumn(const FlowSet& set) const {
     double left = 0, size = 0;
     for (int i = 0; i < n_; ++i) {
       const double unit = std::ldexp(1.0, -growth_.units()[at(i)]);
-      left = std::max(left, unit * inTime_[at(i * n_ + j)]);
-      size = std::max(size, unit * std::fabs(set.C[at(i * n_ + j)]));
+      left = std::max(left, unit * inTime_[i * n_ + j]);
+      size = std::max(size, unit * std::fabs(set.C[i * n_ + j]));
     }
-    if (total_[at(j)] > 0) worst = std::max(worst, left / size);
+    if (total_[j] > 0) worst = std::max(worst, left / size);
   }
   return worst;
 }
@@ -309,16 +310,16 @@ double FlowStepper::worstColumn(const FlowSet& set) const {
 /// truncated before; and no small part of the bound, or rounding is most of it.
 bool FlowStepper::isTruncationTooLarge(double share) {
   const double allowed = std::max(share * h_, 0.25 * bounds::unit);  // less than rounding is no matter of ξ
-  if (!(share > 0 && truncation_ > allowed)) return false;
+  if (!(share > 0 && lost_.truncation > allowed)) return false;
   double truncation = 0;
-  for (const Crossing& crossing : crossings_)
+  for (const StepCrossing& crossing : crossings_)
     series_.kinks().setApart(crossing.node, true);  // crossed_ tells what these do
   bool isBounded = series_.boundWithoutRadii();
-  for (const Crossing& crossing : crossings_) series_.kinks().setApart(crossing.node, false);
+  for (const StepCrossing& crossing : crossings_) series_.kinks().setApart(crossing.node, false);
   for (int i = 0; i < n_ && isBounded; ++i) {
     double sum = 0;
     for (int j = 0; j < n_; ++j) sum += growth_.M1(i, j) * series_.rho0(series_.outputNode(j));
-    truncation = std::max(truncation, sum / scale_[at(i)]);
+    truncation = std::max(truncation, sum / scale_[i]);
   }
   isBounded = series_.bound(E_.data(), false) && isBounded;  // as it was
   return !isBounded || (truncation > allowed && series_.reachesHighestGrades(std::max(allowed, 0.1 * truncation)));
@@ -329,8 +330,8 @@ bool FlowStepper::isLooserThanDriven() const {
   double loose = 0, driven = 0;
   for (int i = 0; i < n_; ++i) {
     const double unit = std::ldexp(1.0, -growth_.units()[at(i)]);
-    loose = std::max(loose, unit * (looseBound(i) - driven_[at(i)]));
-    driven = std::max(driven, unit * driven_[at(i)]);
+    loose = std::max(loose, unit * (looseBound(i) - driven_[i]));
+    driven = std::max(driven, unit * driven_[i]);
   }
   return loose > 2 * inputs_.share() * driven;
 }
@@ -343,7 +344,7 @@ bool FlowStepper::isRemainderTooLarge(const FlowSet& set) const {
   const int N = series_.count();
   double remainder = 0, width = 0, size = 0;
   for (int i = 0; i < n_; ++i) {
-    const double unit = std::ldexp(1.0, -set.units[at(i)]), *p = &set.p[at(i * N)];
+    const double unit = std::ldexp(1.0, -set.units[i]), *p = &set.p[i * N];
     remainder += unit * remainderOf(set, i, total);
     for (int g = 1; g < N; ++g) width += unit * std::fabs(p[g]);
     for (std::size_t l = 0; l < set.half.size(); ++l)  // of the whole box, not of the piece
@@ -363,8 +364,8 @@ bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
   for (int i = 0; i < n_; ++i) {
     double width = 0;
     const double remainder = remainderOf(set, i, errors_);
-    const double centre = std::fabs(set.p[at(i * N)]);
-    for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
+    const double centre = std::fabs(set.p[i * N]);
+    for (int g = 1; g < N; ++g) width += std::fabs(set.p[i * N + g]);
     if (remainder > 0.02 * width && remainder > 1e-12 * (centre + width)) return true;
   }
   return false;
@@ -376,12 +377,12 @@ std::string FlowStepper::nameOf(int state) const {
 
 /// The time in which a state doubles at its present rate, negative if it shrinks.
 double FlowStepper::doubling(const FlowSet& set, int state) const {
-  return set.p[at(state * series_.count())] / (series_.series(state)[1] / h0_);
+  return set.p[state * series_.count()] / (series_.series(state)[1] / h0_);
 }
 
 int FlowStepper::escaping(const FlowSet& set) const {
   for (int i = 0; i < n_; ++i) {
-    const double size = std::fabs(set.p[at(i * series_.count())]), before = set.first.empty() ? size : set.first[at(i)];
+    const double size = std::fabs(set.p[i * series_.count()]), before = set.first.empty() ? size : set.first[i];
     const double time = doubling(set, i);
     if (before > 0 && size > 1000 * before && time > 0 && time < 0.01 * set.t) return i;
   }
@@ -401,21 +402,21 @@ FlowCause FlowStepper::reason(const FlowSet& set) const {
     return std::string(digits.data());
   };
   const auto spread = [&](int i) { return remainderOf(set, i, total_); };
-  if (const int i = escaping(set); i >= 0 && spread(i) < std::fabs(set.p[at(i * N)]))
-    return {escape, nameOf(i) + " grows without bound: it is about " + text(set.p[at(i * N)]) + " and doubles within " +
+  if (const int i = escaping(set); i >= 0 && spread(i) < std::fabs(set.p[i * N]))
+    return {escape, nameOf(i) + " grows without bound: it is about " + text(set.p[i * N]) + " and doubles within " +
                         text(doubling(set, i)) + " s"};
   if (const std::string near = series_.nearestEdge(1e-6 * set.t / h0_); !near.empty()) return {edge, near};
   constexpr double tooWide = 0.1, hardlyKnown = 0.01;
   double widest = 0;
   FlowCause found;
   for (int i = 0; i < n_; ++i) {
-    const double* p = &set.p[at(i * N)];
+    const double* p = &set.p[i * N];
     double half = 0;
     for (int g = 1; g < N; ++g) half += std::fabs(p[g]);
     const double all = spread(i), left = remainderOf(set, i, errors_), driven = std::max(0.0, all - left);
     // One that has hardly moved yet is little if it is little beside the others.
-    const double before = set.largest.empty() ? 0 : set.largest[at(i)];
-    const double size = std::max({std::fabs(p[0]), before, hardlyMoving * floor_[at(i)] / unheard});
+    const double before = set.largest.empty() ? 0 : set.largest[i];
+    const double size = std::max({std::fabs(p[0]), before, hardlyMoving * floor_[i] / unheard});
     const double share = (half + all) / size;
     if (!(share > widest)) continue;
     widest = share;
@@ -433,22 +434,22 @@ FlowCause FlowStepper::reason(const FlowSet& set) const {
 /// Bisection shortens the time that a piece is on both sides as well as what a kink adds: to a quarter; a jump, to
 /// half.
 bool FlowStepper::isKinkTooWide(const FlowSet& set, const SplitShares& shares) {
-  if (isSliding_) return (symbolAcross_ = symbolOfSliding(set, shares)) >= 0;
-  symbolAcross_ = shares.kink > 0 ? series_.symbolAcross() : -1;
-  if (symbolAcross_ < 0) return false;
+  if (course_.isSliding) return (course_.symbolAcross = symbolOfSliding(set, shares)) >= 0;
+  course_.symbolAcross = shares.kink > 0 ? series_.symbolAcross() : -1;
+  if (course_.symbolAcross < 0) return false;
   const int N = series_.count();
-  const std::size_t l = at(symbolAcross_);
+  const std::size_t l = at(course_.symbolAcross);
   constexpr double leastPart = 0x1p-6;  // so little of the whole that even a jump adds less than is aimed at mostly
   const bool mayBisect = l < set.half.size() && set.half[l] > leastPart;
   for (int i = 0; mayBisect && i < n_; ++i) {
     const double allowed = shares.kink / set.half[l];  // of the whole box, not of the piece
     double added = 0, width = 0;
-    for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta0_[at(j)];
-    if (!crossings_.empty() || turn_) added = crossed_[at(i)];
-    for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
-    if (added > allowed * width && width > 1e-9 * scale_[at(i)]) return true;
+    for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta_[j].e0;
+    if (!crossings_.empty() || turn_) added = crossed_[i];
+    for (int g = 1; g < N; ++g) width += std::fabs(set.p[i * N + g]);
+    if (added > allowed * width && width > 1e-9 * scale_[i]) return true;
   }
-  symbolAcross_ = -1;
+  course_.symbolAcross = -1;
   return false;
 }
 
@@ -485,7 +486,7 @@ double FlowStepper::expand(const FlowSet& set, double left, double smallest, dou
 double FlowStepper::dampedStep() const {
   if (!growth_.isDamped()) return 0;
   constexpr double shorter = 0.85;
-  const double byFrame = std::pow(mostOfFrame / std::max(frameError_, 1e-30), 1.0 / (m_ + 1));
+  const double byFrame = std::pow(mostOfFrame / std::max(lost_.frame, 1e-30), 1.0 / (m_ + 1));
   return h_ * std::min({shorter * byFrame, shorter * mostGrowth / std::max(growth_.growth(), 1e-3), 2.0});
 }
 
@@ -504,7 +505,7 @@ bool FlowStepper::drift(FlowSet& set, double end, std::vector<double>& turned) {
     return s;
   };
   for (int i = 0; i < n_; ++i)
-    for (int g = 0; g < N; ++g) set.p[at(i * N + g)] = behind(series_.series(i) + g * series_.stride());
+    for (int g = 0; g < N; ++g) set.p[i * N + g] = behind(series_.series(i) + g * series_.stride());
   turned.clear();
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) turned.push_back(behind(series_.frame(i, j)));
@@ -524,29 +525,19 @@ struct FlowStepper::Search {
 
 void FlowStepper::begin(const FlowSet& set, double end) {
   ofGenerators_ = 0;
-  symbolAcross_ = -1;
-  slideLoss_ = 0;
-  isSliding_ = isShortened_ = false;
+  assumed_ = {};
+  course_ = {};
   crossings_.clear();
-  givenAt_ = signsAt_ = 0;
-  lengthened_ = turnTries_ = 0;
   turn_.reset();
-  lift_.clear();
-  beyondLast_ = 0;
-  unsettled_ = set.unsettledUntil > set.t ? set.unsettled : std::vector<double>{};
-  mayTurn_ = mayPass_ = unsettled_.empty();
-  passing_ = none;
-  isPassingAssumed_ = false;
-  hasLostTurn_ = isTurnMixed_ = false;
-  turnSymbol_ = -1;
+  if (set.unsettledUntil > set.t) assumed_.unsettled = set.unsettled;
+  assumed_.mayTurn = assumed_.mayPass = assumed_.unsettled.empty();
   ownBounds_.clear();
   heldBounds_.clear();
   // Signs of time that are known until the horizon are taken to stay beyond it: until then nothing else is said of f.
-  reach_ = end < length_ ? end - set.t : timeKinks_.nextLinear(set.parameters, end) - set.t;
+  assumed_.reach = end < length_ ? end - set.t : timeKinks_.nextLinear(set.parameters, end) - set.t;
   caution_ = set.caution;
   growth_.setUnits(set.units);
   assumeSides(set);
-  kinkSides_.clear();
   if (kinks_) assumeKinks(set);
   forgetCrossings(set, end);
 }
@@ -555,11 +546,11 @@ void FlowStepper::begin(const FlowSet& set, double end) {
 void FlowStepper::forgetCrossings(const FlowSet& set, double end) {
   series_.kinks().forgetCrossings();
   timeKinks_.giveSides(set.parameters, set.t, end, series_);
-  for (std::size_t j = 0; j < sides_.size(); ++j)
-    if (sides_[j] != 0) series_.kinks().giveSide(series_.kinks().jumps()[j], sides_[j]);
-  if (passing_ != none) series_.kinks().giveSide(kinks_->node(passing_), passingFrom_);
-  for (std::size_t k = 0; k < kinkSides_.size(); ++k)
-    if (kinkSides_[k] != 0) series_.kinks().giveSide(kinks_->node(k), kinkSides_[k]);
+  for (std::size_t j = 0; j < assumed_.sides.size(); ++j)
+    if (assumed_.sides[j] != 0) series_.kinks().giveSide(series_.kinks().jumps()[j], assumed_.sides[j]);
+  if (assumed_.passing != none) series_.kinks().giveSide(kinks_->node(assumed_.passing), assumed_.passingFrom);
+  for (std::size_t k = 0; k < assumed_.kinkSides.size(); ++k)
+    if (assumed_.kinkSides[k] != 0) series_.kinks().giveSide(kinks_->node(k), assumed_.kinkSides[k]);
 }
 
 void FlowStepper::compute(const FlowSet& set) {
@@ -584,16 +575,16 @@ bool FlowStepper::adapts(Search& search) {
 bool FlowStepper::isShortenedForErrors(Search& search) {
   const int patience = growth_.isDamped() || monomials().symbols() >= many ? 12 : 3;  // growth says little of both
   if (search.attempt >= patience) return false;
-  if (timeError_ > 5 * tolerance_) {
-    const double factor = std::pow(tolerance_ / timeError_, 1.0 / (m_ + 1));
+  if (lost_.time > 5 * tolerance_) {
+    const double factor = std::pow(tolerance_ / lost_.time, 1.0 / (m_ + 1));
     caution_ *= factor;
     search.h *= factor;
     return true;
   }
   // Of a machine at rest it is errors that move, faster than it does itself; of a damped one as well.
   const bool asksForFrame = growth_.isDamped() || series_.count() > 1;
-  if (asksForFrame && frameError_ > mostOfFrame) {
-    search.h *= std::max(0.25, 0.9 * std::pow(mostOfFrame / frameError_, 1.0 / (m_ + 1)));
+  if (asksForFrame && lost_.frame > mostOfFrame) {
+    search.h *= std::max(0.25, 0.9 * std::pow(mostOfFrame / lost_.frame, 1.0 / (m_ + 1)));
     return true;
   }
   // Stiff, or so much is left over: the comparison with |Df| would lose a factor e^{growth} a step.
@@ -615,7 +606,7 @@ FlowStepper::Look FlowStepper::lookAround(Search& search) {
   if (look == Look::goOn && kinks_) look = lookAtKinks(search.set, search.h, least, search.left);
   if (look == Look::unsided) computeAnew(search);
   if (look == Look::shorter || look == Look::longer) {
-    isShortened_ = true;
+    course_.isShortened = true;
     if (search.h > h0_) {
       while (h0_ < search.h) h0_ *= 2;
       compute(search.set);
@@ -652,13 +643,13 @@ void FlowStepper::shortenFailed(Search& search) {
 void FlowStepper::take(const Search& search) {
   h_ = search.h;
   theta_ = h_ / h0_;
-  isCut_ = h_ == search.left && search.suggested > search.left;
+  course_.isCut = h_ == search.left && search.suggested > search.left;
   boundDerivatives();
   boundCrossings(search.set);
   boundArrivals(search.set);
   if (turn_ || !crossings_.empty()) caution_ = search.set.caution;  // what failed here says nothing of the next step
   if (h_ < search.left)
-    caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
+    caution_ *= std::clamp(std::pow(tolerance_ / std::max(lost_.time, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
   caution_ = std::clamp(caution_, 0x1p-6, 2.0);
 }
 
@@ -666,9 +657,9 @@ void FlowStepper::take(const Search& search) {
 bool FlowStepper::passesAsTurn(Search& search) {
   if (crossings_.size() != 1 || crossings_.front().kink < 0 || !mayPassAsTurn(at(crossings_.front().kink)))
     return false;
-  passing_ = at(crossings_.front().kink);
-  passingFrom_ = crossings_.front().before;
-  symbolAcross_ = -1;
+  assumed_.passing = at(crossings_.front().kink);
+  assumed_.passingFrom = crossings_.front().before;
+  course_.symbolAcross = -1;
   computeAnew(search);
   return true;
 }
@@ -690,8 +681,8 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     double& h = search.h;
     if (h < search.left) h = std::floor(h / quantum) * quantum;
     if (!(h >= search.smallest || h == search.left) || h <= 0) break;
-    if (givenAt_ > 0 && h > givenAt_) {  // signs that were given are those of a shorter step
-      givenAt_ = signsAt_ = 0;
+    if (assumed_.givenAt > 0 && h > assumed_.givenAt) {  // signs that were given are those of a shorter step
+      assumed_.givenAt = assumed_.signsAt = 0;
       computeAnew(search);
     }
     if (!tryStep(set, h / h0_)) {
@@ -708,7 +699,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     take(search);
     certified_ = static_cast<double>(Work::counted() - begun) - ofGenerators_;
     if (isTruncationTooLarge(shares.truncation)) return StepOutcome::splitWanted;
-    if (!((search.isAdapted || isSliding_) && isKinkTooWide(set, shares))) return StepOutcome::stepped;
+    if (!((search.isAdapted || course_.isSliding) && isKinkTooWide(set, shares))) return StepOutcome::stepped;
     if (!passesAsTurn(search)) return StepOutcome::splitWanted;
   }
   why_ = reason(set);

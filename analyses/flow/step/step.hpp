@@ -24,6 +24,8 @@
 #include "analyses/flow/step/kinks.hpp"
 #include "analyses/flow/step/scales.hpp"
 #include "analyses/flow/step/set.hpp"
+#include "analyses/flow/step/step_crossing.hpp"
+#include "analyses/flow/step/step_turn.hpp"
 #include "analyses/flow/step/time_kinks.hpp"
 #include "analyses/flow/step/turn.hpp"
 #include "analyses/work.hpp"
@@ -33,20 +35,20 @@ namespace gamut {
 
 /// p(σ), Ψ(σ) and what bounds their distance from the truth at one time of the step.
 struct FlowPoint {
-  std::vector<double> p;                        // [state][monomial]
-  std::vector<double> low;                      // of each state, p's second double
-  std::vector<double> psi;                      // [monomial][row][column]
-  std::vector<double> psiSum;                   // Σ_α |Ψ_α| [row][column]
-  std::vector<double> zonotope;                 // Ψ_0 Γ [generator][row], errors' first, then those of inputs
+  ByNumber<double> p;                           // [state][monomial]
+  ByNumber<double> low;                         // of each state, p's second double
+  ByNumber<double> psi;                         // [monomial][row][column]
+  ByNumber<double> psiSum;                      // Σ_α |Ψ_α| [row][column]
+  ByNumber<double> zonotope;                    // Ψ_0 Γ [generator][row], errors' first, then those of inputs
   std::size_t ofErrors = 0;                     // how many of these numbers are the errors'
   std::vector<std::vector<double>> drivenOfXi;  // linear in each symbol, of those of inputs
-  std::vector<double> total;                    // R + Σ_j |Γ_j|, inputs included
-  std::vector<double> ofR;                      // the same of errors alone
-  std::vector<double> beyond;                   // of each state, what is of higher order in ξ of inputs
-  std::vector<double> loose;                    // everything but Ψ (r + Γs), a bound for each state
-  std::vector<double> radius;                   // |x - p - low| ≤ radius
-  std::vector<double> driven;                   // what of that inputs did
-  std::vector<double> known;                    // what of that is known of jumps' arguments besides
+  ByNumber<double> total;                       // R + Σ_j |Γ_j|, inputs included
+  ByNumber<double> ofR;                         // the same of errors alone
+  ByNumber<double> beyond;                      // of each state, what is of higher order in ξ of inputs
+  ByNumber<double> loose;                       // everything but Ψ (r + Γs), a bound for each state
+  ByNumber<double> radius;                      // |x - p - low| ≤ radius
+  ByNumber<double> driven;                      // what of that inputs did
+  ByNumber<double> known;                       // what of that is known of jumps' arguments besides
 };
 
 /// How the polynomials of a step fade with their grade.
@@ -90,6 +92,41 @@ struct SplitShares {
   double slide = 0;
 };
 
+/// What a step takes for granted from its start on, until it is proved. Sides: 1 or -1; 0: none is assumed.
+struct StepAssumptions {
+  std::vector<double> sides;      ///< of each own jump, on which all solutions are; none: nowhere
+  std::vector<char> leaving;      ///< of each own jump, whether it is so since others push it there; none: of none
+  std::vector<double> kinkSides;  ///< of each kink
+  std::size_t passing = StepTurn::none;  ///< the kink that all solutions pass as a turn, from the side passingFrom
+  double passingFrom = 0;
+  bool isPassing = false;  ///< whether any comes so far or not
+  bool mayTurn = true, mayPass = true;
+  std::vector<double> unsettled;  ///< how far solutions may be beside the set; none: they are not
+  std::vector<double> lift;       ///< how much wider the tube is for those that have turned; none: it is not
+  bool isLiftOfSurface = false;
+  double beyondLast = 0;  ///< how much longer the step is than until the last has turned, s; 0: not known yet
+  double signsAt = 0;     ///< the step when signs were given; 0: none were
+  double givenAt = 0;     ///< the longest step that what was given holds for: signs, sides
+  double reach = 0;       ///< how long a step may be in which solutions turn, s
+};
+
+/// What the search for a step met.
+struct StepCourse {
+  bool isSliding = false, isShortened = false;
+  bool isCut = false;  ///< by the end that was given
+  int lengthened = 0;  ///< so often, for all solutions to pass a jump in one step
+  int turnTries = 0;
+  bool hasLostTurn = false, isTurnMixed = false;
+  bool leavesOnceTurned = false;           ///< another side, before the step's end
+  int turnSymbol = -1, symbolAcross = -1;  ///< that decide most: about a turn's moment; about when kinks are crossed
+  double slideLoss = 0;
+};
+
+/// What a step left out: orders in time, of the states and of the frame; grades in ξ, and roundings.
+struct StepLosses {
+  double time = 0, frame = 0, truncation = 0;
+};
+
 /// `released`: solutions that were held may leave.
 enum class StepOutcome { stepped, splitWanted, failed, released };
 
@@ -109,8 +146,8 @@ class FlowStepper {
   /// So many first orders in double-double, where there are no symbols (PolynomialSeries).
   void setFineOrders(int orders) { series_.setFineOrders(orders); }
   /// What the step left out: orders in time; grades in ξ, and roundings. Of the states, relative to their size.
-  double timeError() const { return timeError_; }
-  double truncation() const { return truncation_; }
+  double timeError() const { return lost_.time; }
+  double truncation() const { return lost_.truncation; }
   /// Moves the polynomials of `set` on by a step that nothing is proved of; false if there is none. `turned`: what
   /// becomes in it of errors, about, [row][column].
   bool drift(FlowSet& set, double end, std::vector<double>& turned);
@@ -132,14 +169,14 @@ class FlowStepper {
   /// Those held at the step's end, where all solutions leave one of those held in the step; else none.
   const std::vector<char>& heldBehind() const { return turn_ && turn_->releases() ? stillHeld_ : nothingHeld_; }
   /// Whether a turn was looked at in the last step of which polynomials of a higher degree might tell more.
-  bool hasLostTurn() const { return hasLostTurn_; }
+  bool hasLostTurn() const { return course_.hasLostTurn; }
   bool hasTurned() const { return turn_.has_value(); }
   bool hasToStop() const { return turn_ && !turn_->fromMoment.empty(); }
   /// Or was refused, and smaller parts may tell: in some of them another jump holds or lets go before, or no degree
   /// helps.
-  bool isTurnMixed() const { return isTurnMixed_; }
+  bool isTurnMixed() const { return course_.isTurnMixed; }
   /// The symbol that decides most about when; -1 if none does.
-  int turnSymbol() const { return turnSymbol_; }
+  int turnSymbol() const { return course_.turnSymbol; }
   /// Of each jump, whether its argument is zero for all solutions in the set; empty if none is.
   static std::vector<char> resting(const FlowSet& set, const FlowJumps& jumps);
   /// Before setJumps. `length`, `resolution`: of time, s; `kinks`: of the stepper's motion.
@@ -151,7 +188,7 @@ class FlowStepper {
   /// Whether they have to be: then nothing is proved of what follows, and moments may be far apart.
   void setStops(bool stops) { stops_ = stops; }
   /// Whether a turn was looked at in the last step, or some pass a kink.
-  bool hasTriedTurn() const { return turnTries_ > 0 || !crossings_.empty(); }
+  bool hasTriedTurn() const { return course_.turnTries > 0 || !crossings_.empty(); }
   /// Whether a kink may have come to zero, and f has one of a surface at which it does not jump.
   bool meetsKinks() const;
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
@@ -168,7 +205,7 @@ class FlowStepper {
   void evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed = true,
                 std::optional<Interval> moments = {});
   /// Whether solutions in the step are beside what the set says (FlowSet::unsettled).
-  bool isUnsettled() const { return !unsettled_.empty(); }
+  bool isUnsettled() const { return !assumed_.unsettled.empty(); }
   /// Whether some may have turned by then, and others not yet.
   bool isTurning(double tau) const { return turn_ && turn_->moments.lower() < tau && tau < turn_->moments.upper(); }
   /// When they do so, in units of `scale`, as a polynomial in ξ; and in seconds, what solutions do so where that is
@@ -228,10 +265,10 @@ class FlowStepper {
   /// The symbol whose high powers weigh most in the step.
   int worstSymbol() const;
   /// Whether that is what is wanted of it: no higher degree helps.
-  bool isAcrossKink() const { return symbolAcross_ >= 0; }
+  bool isAcrossKink() const { return course_.symbolAcross >= 0; }
   /// What solutions that come to be held in this step add to a state that follows them, as a share of its width in the
   /// whole box.
-  double slideLoss() const { return slideLoss_; }
+  double slideLoss() const { return course_.slideLoss; }
   GradeDecay decay() const;
   /// Bisects `set` in a symbol; `set` becomes one half, the other is returned.
   FlowSet bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const;
@@ -278,7 +315,7 @@ class FlowStepper {
   bool isTruncationTooLarge(double share);
   bool isLooserThanDriven() const;
   bool isKinkTooWide(const FlowSet& set, const SplitShares& shares);
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  static constexpr std::size_t none = StepTurn::none;
   enum class Look { goOn, again, shorter, longer, unsided, released };
   bool mayPassKink(const FlowSet& set) const;
   std::vector<JumpBound> sidedBounds() const;
@@ -311,37 +348,12 @@ class FlowStepper {
                                double smallest, bool mayArrive = false);
   Box boxAtStart(const FlowSet& set) const;
   Box boxWithin(const std::vector<double>& reach) const;
-  /// In this step all solutions go from one side of a jump or kink to the other: at moment(ξ) - c·C(r + Γs)/rate ±
-  /// off.
-  struct Crossing {
-    const LinearForm* form;
-    int node;                  // the sign, or |u|
-    int jump, kink;            // one of these; -1: not
-    double before;             // the sign until then
-    bool arrives = false;      // at a jump, which holds them
-    BoundedPolynomial moment;  // s
-    double off = 0;
-    Interval moments;               // of all solutions
-    double rate = 0;                // of the argument, about
-    double remainder = 0;           // |c·C(r + Γs)|
-    std::vector<double> curvature;  // K of docs/flow.md; of a kink, |B u̇| at most
-    // Of a kink: ∂f/∂|u|, about; the integral of ũ from the moment on, by orders of σ; how fast ũ moves at most, and
-    // how far moments are from those of ξ.
-    std::vector<double> push = {};
-    std::vector<BoundedPolynomial> area = {};
-    double fastest = 0, away = 0;
-    double apart = 0;                 // u from the ũ + c·Ψ̃(r + Γs) that D is made of, at most
-    const AlongStep* held = nullptr;  // what holds those that arrive
-    /// Of what is added to f from the moment on: times what; f's sign, or -2 before.
-    double change() const { return arrives ? 1 : -2 * before; }
-    double drift(std::size_t i) const { return push.empty() ? 0.0 : std::fabs(push[i]) * apart; }
-  };
   void boundCrossings(const FlowSet& set);
   std::vector<BoundedPolynomial> argumentAlong(const FlowSet& set, const LinearForm& form) const;
-  void addBesides(const Crossing& crossing, double last, double& sum) const;
-  double changedBy(const Crossing& other, const Crossing& crossing) const;
+  void addBesides(const StepCrossing& crossing, double last, double& sum) const;
+  double changedBy(const StepCrossing& other, const StepCrossing& crossing) const;
   std::vector<BoundedPolynomial> areaOf(const std::vector<BoundedPolynomial>& u, const BoundedPolynomial& moment) const;
-  bool boundMoment(const FlowSet& set, Crossing& crossing) const;
+  bool boundMoment(const FlowSet& set, StepCrossing& crossing) const;
   /// What is added to f from the moment on, over change().
   struct Push {
     const PolynomialSeries* of;
@@ -349,14 +361,14 @@ class FlowStepper {
     double norm() const { return of->norm(node); }
     double leading() const { return of->series(node)[0]; }
   };
-  Push pushOf(const Crossing& crossing, std::size_t state) const;
-  bool loadHeldPush(const FlowSet& set, Crossing& crossing);
-  void boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const;
-  bool boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest);
-  static std::pair<BoundedPolynomial, double> sinceCrossing(const Crossing& crossing, double tau);
-  BoundedPolynomial areaSince(const Crossing& crossing, double tau, const BoundedPolynomial& l) const;
-  BoundedPolynomial pushAt(const Crossing& crossing, std::size_t state, double tau) const;
-  void addCrossing(const FlowSet& set, const Crossing& crossing, double tau, FlowPoint& point) const;
+  Push pushOf(const StepCrossing& crossing, std::size_t state) const;
+  bool loadHeldPush(const FlowSet& set, StepCrossing& crossing);
+  void boundCurvature(StepCrossing& crossing, double longest, std::vector<double>& rest) const;
+  bool boundCurvatureOfKink(StepCrossing& crossing, double longest, std::vector<double>& rest);
+  static std::pair<BoundedPolynomial, double> sinceCrossing(const StepCrossing& crossing, double tau);
+  BoundedPolynomial areaSince(const StepCrossing& crossing, double tau, const BoundedPolynomial& l) const;
+  BoundedPolynomial pushAt(const StepCrossing& crossing, std::size_t state, double tau) const;
+  void addCrossing(const FlowSet& set, const StepCrossing& crossing, double tau, FlowPoint& point) const;
   int symbolOfSliding(const FlowSet& set, const SplitShares& shares);
   double longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const;
   bool boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h, std::vector<JumpBound>& bounds,
@@ -388,59 +400,6 @@ class FlowStepper {
   void leaveTogether(const FlowSet& set, const std::vector<Interval>& start, const std::vector<JumpBound>& bounds);
   bool leavesTogether(const FlowSet& set, double h);
   void letGo(const FlowSet& set, const std::vector<JumpBound>& bounds);
-  /// release: a jump lets go solutions that it held; arrival: it comes to hold them; passage: they pass it, or a kink.
-  enum class TurnKind : char { release, arrival, passage };
-  /// In this step all solutions turn, to one side or from one: D is added to each of them from m(ξ) on.
-  struct Turn {
-    std::size_t jump;  // of f; none: a kink
-    double side;       // from which they arrive; else to which they go
-    TurnKind kind;
-    int own;  // jump, of the stepper's motion; -1: of those held
-    FlowTurn* of;
-    Interval moments;                         // s, of m(ξ) and of solutions themselves
-    std::vector<char> heldBefore, heldAfter;  // of each jump of f
-    std::vector<Interval> signs;              // of f, before; 0 of those held
-    const RestingJumps* lifts = nullptr;      // the pair that is released, of which `jump` is the speed's
-    const LinearForm* form = nullptr;
-    BoundedPolynomial when{};                         // m(ξ), in units of σ
-    double needed = 0;                                // s, so long a step holds all m(ξ)
-    double away = 0;                                  // how far these are from each other at most
-    double beyond = 0;                                // the guard at the start, if above zero
-    std::vector<std::vector<BoundedPolynomial>> D{};  // of each state, by orders of σ
-    // Where solutions are to be stopped: x̃ + D, by orders of σ - m(ξ), and up to where, in units of σ, from `away`
-    // before m(ξ) on.
-    std::vector<std::vector<BoundedPolynomial>> fromMoment{};
-    double span = 0;
-    std::vector<double> most{}, twist{};         // |D| and its third derivative at most
-    std::vector<double> gap{}, slope{}, bend{};  // |D|, |Ḋ| and |D̈| at m(ξ)
-    std::vector<BoundedPolynomial> slopeOf{};    // Ḋ there
-    std::vector<double> extent{};                // |D| when the last turns, about: what errors are compared with
-    double rest = 0, steepness = 0;              // of the guard there, along x̃ alone; its slope, at least
-    // The guard by states, where Ḋ is not zero at m(ξ); Ḋ over the guard's slope there, about, and at most beside that.
-    std::vector<double> ofGuard{}, leap{}, besideLeap{};
-    std::vector<double> before{};  // like e1_, until then
-    // What turns of the frame from m(ξ) on, 1/s, and of each state, of what the set's remainder is; ∂f_a/∂x, about.
-    std::vector<double> K{}, turned{}, J{};
-    std::vector<double> saltation{};  // likewise at once, in the middle of ξ
-    std::vector<double> leapt{};      // |S (r + Γs)|; of all ξ where solutions are stopped
-    std::vector<double> jolt{};       // what chords from the step's start miss
-    double lag = 0;                   // s from m(ξ) on, by when all have turned
-    // |z| by then, with S as polynomials: d of every state, and at most beside that; S, none: constant.
-    std::vector<double> soon{}, besideLeapOf{};
-    std::vector<BoundedPolynomial> leapOf{}, saltationOf{};
-    Interval growth{0.0};                       // of the argument's rate, of those let go, towards that side
-    Interval argument{0.0}, soonArgument{0.0};  // at the step's end, and as long after m(ξ) as `lag`
-    std::vector<Interval> besides{};            // likewise of own jumps; none: nothing is known
-    SignCases during(const Interval& seconds) const;
-    Interval gone(double seconds) const;
-    Interval gone(const Interval& shortest, const Interval& longest) const;
-    bool releases() const { return kind == TurnKind::release; }
-    bool arrives() const { return kind == TurnKind::arrival; }
-    bool stops() const { return !fromMoment.empty(); }
-    bool passesJump() const { return kind == TurnKind::passage && jump != none; }
-    /// |D| at most, up to so many seconds from m(ξ), before or after.
-    double within(std::size_t state, double seconds) const;
-  };
   FlowTurn* turnFor(std::size_t jump, double side, TurnKind kind);
   FlowTurn* passageFor(std::size_t kink, double side);
   Look lookAtRelease(const FlowSet& set, double& h, double smallest);
@@ -451,40 +410,40 @@ class FlowStepper {
   /// known to have turned, then.
   double shareOfSpread() const { return stops_ ? 0.125 : 0.25; }
   std::optional<Look> timeTurn(FlowTurn& of, double& h, double smallest, Interval& moments);
-  Look lookAtTurn(const FlowSet& set, double& h, double smallest, Turn turn, const std::vector<Interval>& signs);
-  Look takeTurn(const FlowSet& set, double& h, double smallest, Turn turn, const std::vector<Interval>& signs);
+  Look lookAtTurn(const FlowSet& set, double& h, double smallest, StepTurn turn, const std::vector<Interval>& signs);
+  Look takeTurn(const FlowSet& set, double& h, double smallest, StepTurn turn, const std::vector<Interval>& signs);
   void holdBeside(const std::vector<char>& held);
-  bool pressBeside(const FlowSet& set, const Turn& turn);
-  bool holdUntilTurned(const FlowSet& set, const Turn& turn);
-  Interval onceTurned(const AlongStep& along, int output, const Turn& turn) const;
-  bool stayOnceTurned(const FlowSet& set, Turn& turn, const std::vector<double>& states,
+  bool pressBeside(const FlowSet& set, const StepTurn& turn);
+  bool holdUntilTurned(const FlowSet& set, const StepTurn& turn);
+  Interval onceTurned(const AlongStep& along, int output, const StepTurn& turn) const;
+  bool stayOnceTurned(const FlowSet& set, StepTurn& turn, const std::vector<double>& states,
                       const std::vector<double>& tube);
-  bool holdOnceTurned(const FlowSet& set, const Turn& turn, const std::vector<double>& states,
+  bool holdOnceTurned(const FlowSet& set, const StepTurn& turn, const std::vector<double>& states,
                       const std::vector<double>& tube);
-  std::vector<double> statesWith(const Turn& turn) const;
-  std::vector<double> statesSince(const Turn& turn) const;
-  void followOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
-  bool describeSince(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
-  bool describeInStep(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
+  std::vector<double> statesWith(const StepTurn& turn) const;
+  std::vector<double> statesSince(const StepTurn& turn) const;
+  void followOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn);
+  bool describeSince(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn);
+  bool describeInStep(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn);
   static double lagOf(double away, double h) { return std::max(2 * away, 0x1p-8 * h); }
-  void describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard) const;
-  bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
-  std::vector<BoundedPolynomial> guardOfFrame(const Turn& turn) const;
-  void boundSoon(Turn& turn, const std::vector<Interval>& J, const std::vector<double>& before,
+  void describeLeap(StepTurn& turn, const std::vector<BoundedPolynomial>& guard) const;
+  bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn);
+  std::vector<BoundedPolynomial> guardOfFrame(const StepTurn& turn) const;
+  void boundSoon(StepTurn& turn, const std::vector<Interval>& J, const std::vector<double>& before,
                  const std::vector<double>& rest, const std::vector<double>& slack);
-  bool turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
+  bool turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn);
   std::pair<double, double> valueOfFrame(std::size_t i, std::size_t j, double sigma) const;
   double variationOfFrame(std::size_t i, std::size_t j, double middle, double span) const;
-  std::vector<double> jumpAtMoment(const Turn& turn, const std::vector<double>& before) const;
-  std::vector<double> restOfFrame(const Turn& turn, const std::vector<Interval>& J, double longest) const;
+  std::vector<double> jumpAtMoment(const StepTurn& turn, const std::vector<double>& before) const;
+  std::vector<double> restOfFrame(const StepTurn& turn, const std::vector<Interval>& J, double longest) const;
   struct TurnProof;
-  bool boundDefect(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, TurnProof& proof,
+  bool boundDefect(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn, TurnProof& proof,
                    double& relativeDefect);
-  bool boundOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, TurnProof& proof);
-  bool isTurnLost(const Turn& turn, const TurnProof& proof);
-  bool isTurnInTube(const Turn& turn, const TurnProof& proof);
-  std::vector<double> tubeOnceTurned(Turn& turn, const TurnProof& proof);
-  bool proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, double& relativeDefect);
+  bool boundOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn, TurnProof& proof);
+  bool isTurnLost(const StepTurn& turn, const TurnProof& proof);
+  bool isTurnInTube(const StepTurn& turn, const TurnProof& proof);
+  std::vector<double> tubeOnceTurned(StepTurn& turn, const TurnProof& proof);
+  bool proveTurn(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn, double& relativeDefect);
   void addTurn(double tau, FlowPoint& point, const Interval& moments) const;
   /// What comes to be held, |u - ũ| ≤ g on a chord from its first to its last number, with the state that it decides.
   struct Arrival {
@@ -519,12 +478,12 @@ class FlowStepper {
   FlowGrowth growth_;
   FlowInputs inputs_;
   double h0_ = 0, h_ = 0, theta_ = 0;
-  double timeError_ = 0, truncation_ = 0, frameError_ = 0;
+  StepLosses lost_;
+  StepAssumptions assumed_;
+  StepCourse course_;
   double caution_ = 1;
   std::vector<std::string> names_;
   std::shared_ptr<const FlowScales> scales_;
-  int symbolAcross_ = -1;  // of kinks, for worstSymbol
-  double slideLoss_ = 0;
   const FlowJumps* of_ = nullptr;                    // without any held
   std::optional<JumpBounder> own_, holding_;         // of the stepper's own jumps; of those of which some are held
   std::vector<char> held_, stillHeld_;               // of each of these; none: none
@@ -536,61 +495,38 @@ class FlowStepper {
   std::unique_ptr<AlongStep> pressures_;                               // of pairs that may rest; once needed
   std::map<std::pair<int, bool>, AlongStep> heldPushes_;               // of own jumps, from above or not; once needed
   double length_ = 0, resolution_ = 0;                                 // of time, s
-  double reach_ = 0;           // how long a step may be in which solutions turn, s
-  std::vector<double> sides_;  // of each own jump, on which all solutions are taken to be: 1, -1; 0: not; none: nowhere
-  std::vector<char>
-      leaving_;  // of each own jump, whether its side is taken so that others push it there; none: of none
-  std::unique_ptr<FlowKinks> kinks_;  // null: there are none
+  std::unique_ptr<FlowKinks> kinks_;                                   // null: there are none
   TimeKinks timeKinks_;
   std::vector<Interval> kinkRates_;  // over the step
-  std::vector<Crossing> crossings_;
+  std::vector<StepCrossing> crossings_;
   // Of jumps held, by the side to which they let go (above or not), and of own ones, by that from which solutions come;
   // once needed, null where there is none.
   std::map<std::tuple<std::size_t, bool, TurnKind>, std::unique_ptr<FlowTurn>> turns_;
   std::map<std::pair<std::size_t, bool>, std::unique_ptr<FlowTurn>> passages_;  // of kinks, from above or not
-  std::optional<Turn> turn_;                                                    // of this step
-  bool isPassingAssumed_ = false;  // from the step's start on, whether any comes so far or not
-  std::vector<double> kinkSides_;  // 1 or -1: taken to stay there
-  std::size_t passing_ = none;     // the kink that all solutions pass as a turn, from the side passingFrom_
-  double passingFrom_ = 0;
-  bool mayPass_ = true;            // so, in this step
-  std::vector<double> heldTube_;   // before it
-  std::vector<double> unsettled_;  // how far solutions may be beside the set in this step; none: they are not
-  std::vector<double> lift_;       // how much wider the tube is for those that have turned; none: it is not
-  bool isLiftOfSurface_ = false;
-  double beyondLast_ = 0;  // how much longer the step is than until the last has turned, s; 0: not known yet
-  bool mayTurn_ = true;    // in this step
+  std::optional<StepTurn> turn_;                                                // of this step
+  ByNumber<double> heldTube_;                                                   // before it
   bool mayStop_ = false, mayStopEarly_ = false, stops_ = false;
   BoundedPolynomial meeting_;  // when solutions are nearest to each other, in units of σ
-  bool hasLostTurn_ = false, isTurnMixed_ = false;
-  bool leavesOnceTurned_ = false;  // another side, before the step's end
-  int turnSymbol_ = -1;
-  int turnTries_ = 0;
   const std::vector<char> nothingHeld_ = {};
-  std::vector<double> crossed_;  // like e1_, if what these do is known
-  FlowGrowth following_;         // of the states but those that arrivals decide
-  std::vector<char> arrives_;    // of each state, whether one decides it; none: there are none
-  std::vector<double> bent_;     // of each state, how far what arrivals do rises above its chord
-  bool areSidesClear_ = true;    // by intervals
-  bool isSliding_ = false, isShortened_ = false;
-  bool isCut_ = false;  // by the end that was given
-  int lengthened_ = 0;  // so often, for all solutions to pass a jump in one step
-  double signsAt_ = 0;  // the step when signs were given; 0: none were
-  double givenAt_ = 0;  // the longest step that what was given holds for: signs, sides
+  ByNumber<double> crossed_;   // like e1_, if what these do is known
+  FlowGrowth following_;       // of the states but those that arrivals decide
+  ByNumber<char> arrives_;     // of each state, whether one decides it; none: there are none
+  ByNumber<double> bent_;      // of each state, how far what arrivals do rises above its chord
+  bool areSidesClear_ = true;  // by intervals
   FlowCause why_;
-  std::string obstacle_;  // of the last attempt
-  std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, inTime_, scale_, floor_;
-  std::vector<SeriesError> nu_;  // of a column of Ψ̃
-  std::vector<double> pace_;     // of a state, what is less sets no pace
-  std::vector<double> least_;    // the floor, or what counts of the state's size over the motion, if that is more
-  std::vector<double> total_, errors_;            // R + Σ_j |Γ_j| of the set being stepped; without inputs
-  std::vector<double> looseAtStart_;              // its W
-  std::vector<double> driven_;                    // what inputs do to a state within the step, at most
-  std::vector<double> second_, third_, turning_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
+  std::string obstacle_;              // of the last attempt
+  ByNumber<SeriesError> delta_, nu_;  // of x̃ and of a column of Ψ̃
+  ByNumber<double> start_, E_, y_, e1_, epsilon_, inTime_, scale_, floor_;
+  ByNumber<double> pace_;            // of a state, what is less sets no pace
+  ByNumber<double> least_;           // the floor, or what counts of the state's size over the motion, if that is more
+  ByNumber<double> total_, errors_;  // R + Σ_j |Γ_j| of the set being stepped; without inputs
+  ByNumber<double> looseAtStart_;    // its W
+  ByNumber<double> driven_;          // what inputs do to a state within the step, at most
+  ByNumber<double> second_, third_, turning_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
   FlowPoint end_;
-  double certified_ = 0;         // work of the step's certificate, without that for generators
-  double ofGenerators_ = 0;      // work for generators, since the certificate was begun
-  std::vector<double> carried_;  // generators at the step's end
+  double certified_ = 0;      // work of the step's certificate, without that for generators
+  double ofGenerators_ = 0;   // work for generators, since the certificate was begun
+  ByNumber<double> carried_;  // generators at the step's end
 };
 
 }  // namespace gamut

@@ -65,7 +65,7 @@ std::vector<BoundedPolynomial> sinceMoment(const Monomials& monomials, const std
 }  // namespace
 
 /// An output from a solution's own moment on.
-Interval FlowStepper::onceTurned(const AlongStep& along, int output, const Turn& turn) const {
+Interval FlowStepper::onceTurned(const AlongStep& along, int output, const StepTurn& turn) const {
   if (turn.stops()) return along.over(output, 0, turn.span);
   const std::vector<BoundedPolynomial> u = polynomialsOf(along, output, at(m_) + 1);
   const double moves = along.series().derivativeNorm(along.series().outputNode(output), 1, theta_) / h0_;
@@ -166,11 +166,11 @@ FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, doub
   double soonest = h, next = h;  // when the argument may be zero; another one
   for (std::size_t j = 0; j < own.count(); ++j) {
     const double sign = series_.series(series_.kinks().jumps()[j])[0];
-    if (std::fabs(sign) != 1 || (sides_[j] == 0 && series_.kinks().mayTurn(series_.kinks().jumps()[j])))
+    if (std::fabs(sign) != 1 || (assumed_.sides[j] == 0 && series_.kinks().mayTurn(series_.kinks().jumps()[j])))
       return Look::released;
     signs.emplace_back(sign);
-    if (sides_[j] == 0) continue;
-    const double moment = h0_ * ownRates_->argumentAwayUntil(j, sides_[j], 0, h / h0_);
+    if (assumed_.sides[j] == 0) continue;
+    const double moment = h0_ * ownRates_->argumentAwayUntil(j, assumed_.sides[j], 0, h / h0_);
     if (!(moment < h)) continue;
     next = std::min(next, jump ? std::max(moment, soonest) : h);
     if (jump && moment >= soonest) continue;
@@ -184,7 +184,7 @@ FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, doub
     h = ahead * next;
     return Look::shorter;
   }
-  const double side = sides_[*jump], sigma = soonest / h0_;
+  const double side = assumed_.sides[*jump], sigma = soonest / h0_;
   const bool arrives = own.isAffine && side * midpoint(ownRates_->over(*jump, -side, sigma, sigma)) > 0;
   const TurnKind kind = arrives ? TurnKind::arrival : TurnKind::passage;
   FlowTurn* const of = turnFor(*jump, side, kind);
@@ -222,11 +222,11 @@ FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, doub
 
 /// Not where a sign has the same surface, or one may change at all: then f jumps besides.
 bool FlowStepper::mayPassAsTurn(std::size_t kink) const {
-  if (!mayPass_ || !inputs_.empty() || monomials().symbols() == 0 || !(length_ > 0)) return false;
+  if (!assumed_.mayPass || !inputs_.empty() || monomials().symbols() == 0 || !(length_ > 0)) return false;
   if (!own_) return series_.kinks().jumps().empty();
   for (std::size_t j = 0; j < own_->jumps().count(); ++j) {
     const std::optional<LinearForm>& form = own_->jumps().forms[j];
-    const bool isOnSide = !sides_.empty() && sides_[j] != 0;
+    const bool isOnSide = !assumed_.sides.empty() && assumed_.sides[j] != 0;
     if ((!isOnSide && series_.kinks().mayTurn(series_.kinks().jumps()[j])) ||
         (form && signOfRatio(*form, kinks_->form(kink)) != 0))
       return false;
@@ -251,7 +251,7 @@ bool FlowStepper::meetsKinks() const {
 /// step, also the one that comes to zero first, if any: until it is there, and as a turn from then on, however far the
 /// step goes.
 void FlowStepper::assumeKinks(const FlowSet& set) {
-  kinkSides_.assign(kinks_->count(), 0.0);
+  assumed_.kinkSides.assign(kinks_->count(), 0.0);
   if (!mayStopEarly_) return;
   countAsGenerators([&] { totalRadius(set, total_); });
   std::vector<Interval> u, rates;
@@ -263,12 +263,12 @@ void FlowStepper::assumeKinks(const FlowSet& set) {
     if (from == 0 || !isCommon(rates[k])) continue;
     const double nearest = from > 0 ? start.lower() : -start.upper();
     const double fastest = from > 0 ? -rates[k].lower() : rates[k].upper();
-    if (!(fastest > 0)) kinkSides_[k] = from;
+    if (!(fastest > 0)) assumed_.kinkSides[k] = from;
     if (!stops_ || !(fastest > 0) || !(nearest / fastest < first) || !mayPassAsTurn(k)) continue;
     first = nearest / fastest;
-    passing_ = k;
-    passingFrom_ = from;
-    isPassingAssumed_ = true;
+    assumed_.passing = k;
+    assumed_.passingFrom = from;
+    assumed_.isPassing = true;
   }
 }
 
@@ -276,8 +276,8 @@ void FlowStepper::assumeKinks(const FlowSet& set) {
 /// nothing.
 void FlowStepper::takeKinkSides(AlongStep& along, double ofPassing) const {
   std::vector<std::pair<const LinearForm*, double>> sides;
-  for (std::size_t k = 0; k < kinkSides_.size(); ++k) {
-    const double side = k == passing_ ? ofPassing : kinkSides_[k];
+  for (std::size_t k = 0; k < assumed_.kinkSides.size(); ++k) {
+    const double side = k == assumed_.passing ? ofPassing : assumed_.kinkSides[k];
     if (side != 0) sides.emplace_back(&kinks_->form(k), side);
   }
   along.takeSides(std::move(sides));
@@ -289,7 +289,7 @@ FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, doub
   for (std::size_t j = 0; own_ && j < own_->jumps().count(); ++j) {
     const double sign = series_.series(series_.kinks().jumps()[j])[0];
     if (std::fabs(sign) != 1 ||
-        ((sides_.empty() || sides_[j] == 0) && series_.kinks().mayTurn(series_.kinks().jumps()[j])))
+        ((assumed_.sides.empty() || assumed_.sides[j] == 0) && series_.kinks().mayTurn(series_.kinks().jumps()[j])))
       return Look::released;
     signs.emplace_back(sign);
   }
@@ -302,37 +302,39 @@ FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, doub
       else if (held_[k] == 0)
         all[k] = Interval(factor_[k]) * signs[at(left_[k])];
   }
-  FlowTurn* const of = passageFor(passing_, passingFrom_);
+  FlowTurn* const of = passageFor(assumed_.passing, assumed_.passingFrom);
   takeKinkSides(*of, 0);
   if (!of->load(series_, set.t, h0_, h / h0_, set.parameters, signs, heldTube_)) return Look::released;
   if (of->over(of->guard(), 0, h / h0_).upper() < 0) return Look::goOn;  // none of them comes so far
-  const Look look =
-      lookAtTurn(set, h, smallest, {none, -passingFrom_, TurnKind::passage, -1, of, {}, held_, held_, all}, signs);
+  const Look look = lookAtTurn(set, h, smallest,
+                               {none, -assumed_.passingFrom, TurnKind::passage, -1, of, {}, held_, held_, all}, signs);
   if (look != Look::goOn) return look;
   holdBeside(held_);
   for (JumpBound& bound : ownBounds_) bound = {.sign = bound.sign};  // rates are others then
-  turn_->form = &kinks_->form(passing_);
+  turn_->form = &kinks_->form(assumed_.passing);
   return look;
 }
 
 /// Whether arguments that are on a side stay there once others have turned, along these polynomials of states: the turn
 /// has been loaded with them. Sets what they are at the step's end. Before that: longestOnSides, of
 /// arrivals lookAtArrival.
-bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vector<double>& states,
+bool FlowStepper::stayOnceTurned(const FlowSet& set, StepTurn& turn, const std::vector<double>& states,
                                  const std::vector<double>& tube) {
   turn.besides.clear();
   if (!own_ || areSidesClear_) return true;
   std::vector<Interval> signs;
   for (const int jump : series_.kinks().jumps()) signs.emplace_back(series_.series(jump)[0]);
-  takeKinkSides(*ownRates_, turn.jump == none ? -passingFrom_ : 0);  // from their moments on
+  takeKinkSides(*ownRates_, turn.jump == none ? -assumed_.passingFrom : 0);  // from their moments on
   if (!ownRates_->load(states, set.t, h0_, turn.stops() ? turn.span : theta_, set.parameters, signs, tube))
     return false;
   turn.besides.assign(signs.size(), Interval::entire());
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j < sides_.size(); ++j) {
+  for (std::size_t j = 0; j < assumed_.sides.size(); ++j) {
     const bool isPassed = turn.passesJump() && static_cast<int>(j) == turn.own;
-    if (sides_[j] == 0 || (static_cast<int>(j) == turn.own && !isPassed)) continue;
-    const auto isAway = [&](const Interval& number) { return sides_[j] > 0 ? number.lower() > 0 : number.upper() < 0; };
+    if (assumed_.sides[j] == 0 || (static_cast<int>(j) == turn.own && !isPassed)) continue;
+    const auto isAway = [&](const Interval& number) {
+      return assumed_.sides[j] > 0 ? number.lower() > 0 : number.upper() < 0;
+    };
     const LinearForm& form = *own_->jumps().forms[j];
     Interval rate(0.0);
     for (std::size_t i = 0; i < form.states.size(); ++i)
@@ -341,8 +343,8 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
     if (!isPassed && !isAway(rate) && !isAway(onceTurned(*ownRates_, ownRates_->argument(j), turn))) return false;
     const Interval end =
         turn.stops() ? ownRates_->argumentOver(j, 0, turn.span) : ownRates_->argumentOver(j, theta_, theta_);
-    const Interval beyond =
-        (sides_[j] > 0) != isPassed ? Interval(0.0, infinite) : Interval(-infinite, 0.0);  // it may have come nearer
+    const Interval beyond = (assumed_.sides[j] > 0) != isPassed ? Interval(0.0, infinite)
+                                                                : Interval(-infinite, 0.0);  // it may have come nearer
     turn.besides[j] = intersection(end, beyond);
     if (isEmpty(turn.besides[j])) return false;
   }
@@ -358,12 +360,12 @@ void FlowStepper::holdBeside(const std::vector<char>& held) {
 
 /// Another one turns before all have: what decides most about when is what this piece is to be bisected in.
 void FlowStepper::noteOther(const HeldSigns& together, std::size_t jump, double seconds) {
-  turnSymbol_ = together.worstSymbol(jump, seconds / h0_);
-  isTurnMixed_ = true;
+  course_.turnSymbol = together.worstSymbol(jump, seconds / h0_);
+  course_.isTurnMixed = true;
 }
 
 /// Whether those that are held besides the one that turns are so until all have turned.
-bool FlowStepper::holdUntilTurned(const FlowSet& set, const Turn& turn) {
+bool FlowStepper::holdUntilTurned(const FlowSet& set, const StepTurn& turn) {
   const auto besides =
       std::ranges::count(turn.heldBefore, byItsSign) - (turn.releases() && turn.lifts == nullptr ? 1 : 0);
   if (besides == 0) return true;
@@ -380,7 +382,7 @@ bool FlowStepper::holdUntilTurned(const FlowSet& set, const Turn& turn) {
 }
 
 /// Likewise from when the first has turned, along these polynomials of states.
-bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std::vector<double>& states,
+bool FlowStepper::holdOnceTurned(const FlowSet& set, const StepTurn& turn, const std::vector<double>& states,
                                  const std::vector<double>& tube) {
   const auto besides = std::ranges::count(turn.heldAfter, byItsSign) - (turn.arrives() ? 1 : 0);
   if (besides == 0) return true;
@@ -403,7 +405,7 @@ bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std
 
 /// Whether other pairs that rest are pressed to their places all the step long, whoever has turned: in the tube of
 /// both.
-bool FlowStepper::pressBeside(const FlowSet& set, const Turn& turn) {
+bool FlowStepper::pressBeside(const FlowSet& set, const StepTurn& turn) {
   const auto rests = [&](const RestingJumps& rest) { return turn.heldAfter[rest.speed] == atRest; };
   if (turn.heldAfter.empty() || std::ranges::none_of(of_->rests, rests)) return true;
   std::vector<Interval> signs = turn.signs;
@@ -424,7 +426,7 @@ std::optional<FlowStepper::Look> FlowStepper::timeTurn(FlowTurn& of, double& h, 
   if (!(guardAt(h).lower() > 0)) {  // not yet all of them
     const Interval growth = of.over(of.growth(), h / h0_, h / h0_);
     const double all = h - guardAt(h).lower() / growth.lower() * longerTurn;
-    if (!(growth.lower() > 0) || !std::isfinite(all) || all > reach_ || ++lengthened_ > mostTurnTries)
+    if (!(growth.lower() > 0) || !std::isfinite(all) || all > assumed_.reach || ++course_.lengthened > mostTurnTries)
       return Look::released;
     h = std::min(all, 4 * h);
     return Look::longer;
@@ -432,14 +434,15 @@ std::optional<FlowStepper::Look> FlowStepper::timeTurn(FlowTurn& of, double& h, 
   const double first = h0_ * of.awayUntil(of.guard(), -1, 0, h / h0_);
   const double last = changeOf(first, h, [&](double until) { return guardAt(until).lower() > 0; }).second;
   constexpr double ahead = 1 - 0x1p-7, mostBefore = 0x1p-4;  // of the step; what comes later is left to the next
-  if (first > std::max(last - first, mostBefore * h) && lift_.empty() && !(beyondLast_ > 0)) {
+  if (first > std::max(last - first, mostBefore * h) && assumed_.lift.empty() && !(assumed_.beyondLast > 0)) {
     h = ahead * first;
     return Look::shorter;
   }
   constexpr double ofStep = 0x1p-6;
-  if (!(beyondLast_ > 0)) beyondLast_ = std::max({shareOfSpread() * (last - first), ofStep * h, smallest});
-  const double target = last + beyondLast_;
-  if (target > reach_) return Look::released;
+  if (!(assumed_.beyondLast > 0))
+    assumed_.beyondLast = std::max({shareOfSpread() * (last - first), ofStep * h, smallest});
+  const double target = last + assumed_.beyondLast;
+  if (target > assumed_.reach) return Look::released;
   if (h > turnSlack * target) {
     h = target;
     return Look::shorter;
@@ -449,9 +452,9 @@ std::optional<FlowStepper::Look> FlowStepper::timeTurn(FlowTurn& of, double& h, 
 }
 
 /// Whether the turn takes all solutions within the step.
-FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double smallest, Turn turn,
+FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double smallest, StepTurn turn,
                                           const std::vector<Interval>& signs) {
-  if (!inputs_.empty() || ++turnTries_ > 3 * mostTurnTries) return Look::released;
+  if (!inputs_.empty() || ++course_.turnTries > 3 * mostTurnTries) return Look::released;
   // Until it turns, a solution is one of those before: inside their tube.
   FlowTurn& of = *turn.of;
   takeKinkSides(of, 0);
@@ -464,37 +467,37 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
   theta_ = h / h0_;
   turn.needed = 0;
   if (!describeTurn(set, signs, turn)) {
-    if (!(turn.needed > turnSlack * h) || !(turn.needed < 2 * h) || turn.needed > reach_ ||
-        ++lengthened_ > mostTurnTries)
+    if (!(turn.needed > turnSlack * h) || !(turn.needed < 2 * h) || turn.needed > assumed_.reach ||
+        ++course_.lengthened > mostTurnTries)
       return Look::released;
-    beyondLast_ = turn.needed - turn.moments.upper();
+    assumed_.beyondLast = turn.needed - turn.moments.upper();
     h = turn.needed;
     return Look::longer;
   }
   if (!holdUntilTurned(set, turn)) return Look::released;
-  if (lift_.empty()) {
-    for (const double most : turn.most) lift_.push_back(longerTurn * most + bounds::tiny);
-    isLiftOfSurface_ = turn.arrives() || turn.passesJump();
+  if (assumed_.lift.empty()) {
+    for (const double most : turn.most) assumed_.lift.push_back(longerTurn * most + bounds::tiny);
+    assumed_.isLiftOfSurface = turn.arrives() || turn.passesJump();
     return Look::shorter;  // no shorter, but in this tube
   }
   return takeTurn(set, h, smallest, std::move(turn), signs);
 }
 
 /// The turn that was described, if it is proved; else another tube, or a shorter step.
-FlowStepper::Look FlowStepper::takeTurn(const FlowSet& set, double& h, double smallest, Turn turn,
+FlowStepper::Look FlowStepper::takeTurn(const FlowSet& set, double& h, double smallest, StepTurn turn,
                                         const std::vector<Interval>& signs) {
-  const std::vector<double> lift = lift_;
+  const std::vector<double> lift = assumed_.lift;
   double defect = 0;  // of D
-  leavesOnceTurned_ = false;
+  course_.leavesOnceTurned = false;
   const bool isProved = proveTurn(set, signs, turn, defect);
-  if (!isProved && !leavesOnceTurned_) return lift_ == lift ? Look::released : Look::shorter;
+  if (!isProved && !course_.leavesOnceTurned) return assumed_.lift == lift ? Look::released : Look::shorter;
   const double first = turn.moments.lower(), last = turn.moments.upper(), share = shareOfSpread();
-  const bool mayBeShorter = beyondLast_ > turnSlack * share * (last - first) && beyondLast_ > smallest;
+  const bool mayBeShorter = assumed_.beyondLast > turnSlack * share * (last - first) && assumed_.beyondLast > smallest;
   if (!isProved && !mayBeShorter) return Look::released;
   if (constexpr double mostDefect = 1e-4; !isProved || (defect > mostDefect && mayBeShorter)) {
-    beyondLast_ = std::max({share * (last - first), 0.25 * beyondLast_, smallest});
-    h = last + beyondLast_;
-    lift_.clear();
+    assumed_.beyondLast = std::max({share * (last - first), 0.25 * assumed_.beyondLast, smallest});
+    h = last + assumed_.beyondLast;
+    assumed_.lift.clear();
     return Look::shorter;
   }
   if (!pressBeside(set, turn)) return Look::released;
@@ -502,29 +505,8 @@ FlowStepper::Look FlowStepper::takeTurn(const FlowSet& set, double& h, double sm
   return Look::goOn;
 }
 
-/// The argument of those let go.
-Interval FlowStepper::Turn::gone(double seconds) const {
-  const auto since = [&](double moment) {
-    return Interval(std::max(0.0, (Interval(seconds) - Interval(moment)).lower()),
-                    std::max(0.0, (Interval(seconds) - Interval(moment)).upper()));
-  };
-  return gone(since(moments.upper()), since(moments.lower()));
-}
-
-/// As long after their own moments, at least and at most.
-Interval FlowStepper::Turn::gone(const Interval& shortest, const Interval& longest) const {
-  const Interval result(std::max(0.0, (Interval(0.5) * growth * shortest * shortest).lower()),
-                        (Interval(0.5) * growth * longest * longest + Interval(beyond) * longest).upper());
-  return side > 0 ? result : -result;
-}
-
-double FlowStepper::Turn::within(std::size_t state, double seconds) const {
-  const double curved = 0.5 * bend[state] + seconds * twist[state] / 6;
-  return (gap[state] + seconds * (slope[state] + seconds * curved)) * bounds::up;
-}
-
 /// x̃ + D, as AlongStep takes it.
-std::vector<double> FlowStepper::statesWith(const Turn& turn) const {
+std::vector<double> FlowStepper::statesWith(const StepTurn& turn) const {
   const std::size_t N = at(series_.count()), orders = at(m_) + 1;
   std::vector<double> result;
   for (int i = 0; i < n_; ++i)
@@ -535,18 +517,18 @@ std::vector<double> FlowStepper::statesWith(const Turn& turn) const {
 }
 
 /// m(ξ), where the guard along x̃ is zero, and D about ∫ f_a(x̃ + D) - x̃' from there on, by Picard's method.
-bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
+bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn) {
   FlowTurn& of = *turn.of;
   const std::size_t orders = at(m_) + 1;
   const std::vector<BoundedPolynomial> rate = polynomialsOf(of, of.guard(), orders);
   const PolynomialRoot root = rootOf(monomials(), rate, midpoint(turn.moments) / h0_);
   // The guard is zero, but for what bounds miss, at a solution's own moment and at m(ξ); the slope of its polynomial
   // differs from that at their middle by no more than the second derivative makes of half their distance.
-  isTurnMixed_ = false;
+  course_.isTurnMixed = false;
   std::vector<double> mass(at(monomials().symbols()), 0.0);
   for (std::size_t g = 1; g < root.x.c.size(); ++g)
     monomials().addMass(static_cast<int>(g), std::fabs(root.x.c[g]), mass);
-  turnSymbol_ = greatestOf(mass);
+  course_.turnSymbol = greatestOf(mass);
   turn.when = root.x;
   const Interval range = rangeOf(monomials(), root.x), moments = hull(range, turn.moments / Interval(h0_));
   turn.needed = range.upper() * h0_;
@@ -591,7 +573,7 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
 }
 
 /// D about ∫ f_a(x̃ + D) - x̃' from m(ξ) on, by Picard's method.
-bool FlowStepper::describeInStep(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
+bool FlowStepper::describeInStep(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn) {
   const std::size_t n = at(n_), orders = at(m_) + 1;
   const std::size_t N = at(series_.count());
   turn.D.assign(n, std::vector<BoundedPolynomial>(orders, {std::vector<double>(N, 0.0)}));
@@ -642,11 +624,12 @@ bool FlowStepper::describeInStep(const FlowSet& set, const std::vector<Interval>
 }
 
 /// Where Ḋ is not zero at m(ξ), a solution beside x̃ that turns sooner leaves by as much more.
-void FlowStepper::describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard) const {
+void FlowStepper::describeLeap(StepTurn& turn, const std::vector<BoundedPolynomial>& guard) const {
   const AlongStep& of = *turn.of;
   const BoundedPolynomial steepness = composed(monomials(), rateOf(guard, h0_), turn.when);
   const double bend = of.series().derivativeNorm(of.series().outputNode(turn.of->guard()), 2, theta_) / (h0_ * h0_);
-  for (const double c : own_->jumps().forms[at(turn.own)]->states) turn.ofGuard.push_back(-sides_[at(turn.own)] * c);
+  for (const double c : own_->jumps().forms[at(turn.own)]->states)
+    turn.ofGuard.push_back(-assumed_.sides[at(turn.own)] * c);
   BoundedPolynomial inverse{{1 / steepness.c[0]}};
   for (int degree = 1; degree <= monomials().degree(); degree *= 2) {  // Newton's method
     BoundedPolynomial off = product(monomials(), inverse, steepness);
@@ -675,7 +658,7 @@ void FlowStepper::describeLeap(Turn& turn, const std::vector<BoundedPolynomial>&
 
 /// |z| at a solution's own moment τ at most, with x - x̃ - Ψ̃(r + Γs) at most `before` there: D is D(m) + Ḋ(m) (τ - m) +
 /// D̈ (τ - m)²/2, and the guard, zero at τ but for what is beyond it, tells τ - m.
-std::vector<double> FlowStepper::jumpAtMoment(const Turn& turn, const std::vector<double>& before) const {
+std::vector<double> FlowStepper::jumpAtMoment(const StepTurn& turn, const std::vector<double>& before) const {
   const std::size_t n = at(n_);
   std::vector<double> result;
   if (turn.ofGuard.empty()) {
@@ -735,7 +718,7 @@ double FlowStepper::variationOfFrame(std::size_t i, std::size_t j, double middle
 
 /// What becomes of the frame with D: it leaps by S = d GΨ̃, G the guard by states and d = Ḋ/ġ (the saltation matrix is 1
 /// + d G: Aizerman, Gantmakher, 1958), and turns by K = J_a (Ψ̃ + S) - Ψ̃', per second, as these are in the middle.
-bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
+bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn) {
   const std::size_t n = at(n_), orders = at(m_) + 1;
   const double middle = turn.when.c[0];
   Box states, parameters;
@@ -784,7 +767,8 @@ bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>&
 
 /// |J_a (Ψ̃ + S + K (t - m(ξ))) - Ψ̃' - K|, J_a anything in J, for `longest` seconds after the first has turned: of each
 /// row, times what the set's remainder is. What Ψ̃ and its rate are elsewhere than in the middle counts as an error.
-std::vector<double> FlowStepper::restOfFrame(const Turn& turn, const std::vector<Interval>& J, double longest) const {
+std::vector<double> FlowStepper::restOfFrame(const StepTurn& turn, const std::vector<Interval>& J,
+                                             double longest) const {
   const std::size_t n = at(n_), orders = at(m_) + 1;
   const double middle = turn.when.c[0], span = std::max(std::fabs(middle), theta_ - middle);
   const auto norms = [&](std::size_t i, std::size_t j) {  // what varies of Ψ̃, and of its rate; both at most
@@ -834,7 +818,7 @@ struct FlowStepper::TurnProof {
 };
 
 /// The defect of D, f_a(x̃ + D) - x̃' - D', and what there is of z and of the frame before solutions turn.
-bool FlowStepper::boundDefect(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, TurnProof& proof,
+bool FlowStepper::boundDefect(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn, TurnProof& proof,
                               double& relativeDefect) {
   FlowTurn& of = *turn.of;
   const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
@@ -871,12 +855,11 @@ bool FlowStepper::boundDefect(const FlowSet& set, const std::vector<Interval>& s
       relativeDefect = std::max(relativeDefect, proof.longest * defect / std::max(turn.extent[i], heard * scale_[i]));
     double sum = inputs_.rest(row) + slack, ofFrame = turn.leapt[i], turned = 0;
     for (int j = 0; j < n_; ++j) {
-      const double K = std::fabs(turn.K[at(row * n_ + j)]) * total_[at(j)] * bounds::up;
+      const double K = std::fabs(turn.K[at(row * n_ + j)]) * total_[j] * bounds::up;
       turned += K;
-      ofFrame += (series_.frameNorm(row, j) * total_[at(j)] + proof.since * K) * bounds::up;
-      sum += epsilon_[at(row * n_ + j)] * total_[at(j)];
-      sum +=
-          growth_.M1(row, j) * delta0_[at(j)] + growth_.M2(row, j) * delta1_[at(j)] + growth_.M0(row, j) * set.W[at(j)];
+      ofFrame += (series_.frameNorm(row, j) * total_[j] + proof.since * K) * bounds::up;
+      sum += epsilon_[row * n_ + j] * total_[j];
+      sum += growth_.M1(row, j) * delta_[j].e0 + growth_.M2(row, j) * delta_[j].e1 + growth_.M0(row, j) * set.W[j];
     }
     turn.turned.push_back(turned);
     proof.ofFrame.push_back(ofFrame);
@@ -886,7 +869,7 @@ bool FlowStepper::boundDefect(const FlowSet& set, const std::vector<Interval>& s
 }
 
 /// |z| while it is followed: crossed_. Proved where what bounds of f_a's derivatives allow for is more.
-bool FlowStepper::boundOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn,
+bool FlowStepper::boundOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn,
                                   TurnProof& proof) {
   const std::size_t n = at(n_);
   const std::vector<double> jump = jumpAtMoment(turn, proof.before);
@@ -935,35 +918,35 @@ bool FlowStepper::boundOnceTurned(const FlowSet& set, const std::vector<Interval
 }
 
 /// Where moments are known too badly to follow what depends on them, other steps say more.
-bool FlowStepper::isTurnLost(const Turn& turn, const TurnProof& proof) {
+bool FlowStepper::isTurnLost(const StepTurn& turn, const TurnProof& proof) {
   constexpr double mostLost = 1e-2, wanted = 1e-4, ofDegree = 0.1, little = 1e-9;
   bool isLost = false;
-  hasLostTurn_ = false;
+  course_.hasLostTurn = false;
   for (std::size_t i = 0; i < at(n_); ++i) {
     const double beside = 4 * heldTube_[i] + little * scale_[i];
     isLost = isLost || crossed_[i] > mostLost * turn.extent[i] + beside;
-    hasLostTurn_ =
-        hasLostTurn_ || (crossed_[i] > wanted * turn.extent[i] + beside && proof.truncated[i] > ofDegree * crossed_[i]);
+    course_.hasLostTurn = course_.hasLostTurn || (crossed_[i] > wanted * turn.extent[i] + beside &&
+                                                  proof.truncated[i] > ofDegree * crossed_[i]);
   }
-  isTurnMixed_ = isLost && !hasLostTurn_;
+  course_.isTurnMixed = isLost && !course_.hasLostTurn;
   return isLost;
 }
 
 /// Whether those that have turned are in the step's tube, which else is lifted to them.
-bool FlowStepper::isTurnInTube(const Turn& turn, const TurnProof& proof) {
+bool FlowStepper::isTurnInTube(const StepTurn& turn, const TurnProof& proof) {
   bool isInTube = true;
   for (std::size_t i = 0; i < at(n_); ++i) {
     const double reach = (turn.most[i] + crossed_[i]) * bounds::up;
     if ((proof.ofFrame[i] + reach) * bounds::up < y_[i]) continue;
     isInTube = false;
-    const double lacking = proof.ofFrame[i] + 1.25 * reach - (y_[i] - lift_[i]);
-    lift_[i] = std::max({1.25 * lift_[i], 1.5 * reach, lacking});
+    const double lacking = proof.ofFrame[i] + 1.25 * reach - (y_[i] - assumed_.lift[i]);
+    assumed_.lift[i] = std::max({1.25 * assumed_.lift[i], 1.5 * reach, lacking});
   }
   return isInTube;
 }
 
 /// How far solutions are from x̃ + D, where D may be taken to begin `away` too soon; and what chords of the step miss.
-std::vector<double> FlowStepper::tubeOnceTurned(Turn& turn, const TurnProof& proof) {
+std::vector<double> FlowStepper::tubeOnceTurned(StepTurn& turn, const TurnProof& proof) {
   std::vector<double> tube;
   const double since = proof.since;
   for (std::size_t i = 0; i < at(n_); ++i) {
@@ -985,7 +968,7 @@ std::vector<double> FlowStepper::tubeOnceTurned(Turn& turn, const TurnProof& pro
 /// From then on z = x - x̃ - (Ψ̃ + S + K (t - m(ξ)))(r + Γs) - D obeys z' = J̄_a z + (f_a(x̃ + D) - x̃' - D') + (J̄_a (Ψ̃ + S
 /// + K (t - m)) - Ψ̃' - K)(r + Γs), J_a = ∂f_a/∂x on the way from x̃ + D to x. Whether it is so small that x is in the
 /// step's tube, and the rate of those let go grows.
-bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn,
+bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn,
                             double& relativeDefect) {
   TurnProof proof;
   if (!boundDefect(set, signs, turn, proof, relativeDefect) || !boundOnceTurned(set, signs, turn, proof)) return false;
@@ -994,7 +977,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   FlowTurn& of = *turn.of;
   const std::vector<double> tube = tubeOnceTurned(turn, proof);
   if (!of.rebound(tube.data()) || !holdOnceTurned(set, turn, proof.states, tube)) return false;
-  if (leavesOnceTurned_ = !stayOnceTurned(set, turn, proof.states, tube); leavesOnceTurned_) return false;
+  if (course_.leavesOnceTurned = !stayOnceTurned(set, turn, proof.states, tube); course_.leavesOnceTurned) return false;
   const Interval growth = onceTurned(of, of.isAhead(), turn);
   if (!(growth.lower() > 0) || !(onceTurned(of, of.isAttracted(), turn).lower() > 0)) return false;
   if (!turn.releases()) return true;
@@ -1009,7 +992,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
 /// before; what has turned has D, at most what it may be `since` the first has. A share of D is off by no more than a
 /// part of both.
 void FlowStepper::addTurn(double tau, FlowPoint& point, const Interval& moments) const {
-  const Turn& turn = *turn_;
+  const StepTurn& turn = *turn_;
   const std::size_t n = at(n_);
   const Interval away = Interval(turn.away);
   const double late =

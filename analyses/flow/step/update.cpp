@@ -111,10 +111,10 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, boo
   evaluateMotion(set, tau, point, narrowed, moments);
   countAsGenerators([&] { evaluateRemainder(set, tau, point); });
   if (tau != 0 && narrowed) narrowArguments(set, tau, point, moments);
-  if (unsettled_.empty() || set.t + tau >= set.unsettledUntil) return;
+  if (assumed_.unsettled.empty() || set.t + tau >= set.unsettledUntil) return;
   for (std::size_t i = 0; i < at(n_); ++i)
     for (std::vector<double>* of : {&point.loose, &point.known, &point.radius})
-      (*of)[i] = ((*of)[i] + unsettled_[i]) * bounds::up;
+      (*of)[i] = ((*of)[i] + assumed_.unsettled[i]) * bounds::up;
 }
 
 /// p, Ψ and what is loose.
@@ -136,23 +136,23 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
     double error = 0;
     if (series_.isFine()) {
       const detail::DoubleDouble x = fineHornerOf(series_, i, m_, sigma, error);
-      point.p[at(i)] = x.hi;
-      point.low[at(i)] = x.lo;
+      point.p[i] = x.hi;
+      point.low[i] = x.lo;
     } else {
       for (int g = 0; g < N; ++g)
-        point.p[at(i * N + g)] = hornerWithError(series_.series(i) + g * stride, m_, sigma, error);
+        point.p[i * N + g] = hornerWithError(series_.series(i) + g * stride, m_, sigma, error);
     }
-    point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + left[at(i)];  // the start is known
+    point.loose[i] = tau == 0 ? set.W[i] : error + left[at(i)];  // the start is known
   }
   point.total = total_;
-  for (int j = 0; j < n_ && tau != 0; ++j) point.total[at(j)] = (total_[at(j)] + inputs_.total(j)) * bounds::up;
+  for (int j = 0; j < n_ && tau != 0; ++j) point.total[j] = (total_[j] + inputs_.total(j)) * bounds::up;
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {
       double error = 0;
       const double* psi = series_.frame(i, j);
       for (int g = 0; g < NJ; ++g)
-        point.psi[at((g * n_ + i) * n_ + j)] = hornerWithError(psi + g * stride, m_, sigma, error);
-      if (tau != 0) point.loose[at(i)] += (error + epsilon_[at(i * n_ + j)]) * point.total[at(j)];
+        point.psi[(g * n_ + i) * n_ + j] = hornerWithError(psi + g * stride, m_, sigma, error);
+      if (tau != 0) point.loose[i] += (error + epsilon_[i * n_ + j]) * point.total[j];
     }
   for (std::size_t k = 0; crosses && k < crossings_.size(); ++k) addCrossing(set, crossings_[k], tau, point);
   if (crosses && turn_ && !isHeldStill) addTurn(tau, point, *moments);
@@ -162,11 +162,11 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
     double size = 0;
     for (int j = 0; j < n_; ++j) {
       double sum = 0;
-      for (int g = 0; g < NJ; ++g) sum += std::fabs(point.psi[at((g * n_ + i) * n_ + j)]);
-      point.psiSum[at(i * n_ + j)] = sum * bounds::up;
-      size += sum * bounds::up * point.total[at(j)];
+      for (int g = 0; g < NJ; ++g) sum += std::fabs(point.psi[(g * n_ + i) * n_ + j]);
+      point.psiSum[i * n_ + j] = sum * bounds::up;
+      size += sum * bounds::up * point.total[j];
     }
-    point.loose[at(i)] = (point.loose[at(i)] + (2 * n_ + 8) * bounds::unit * size) * bounds::up;
+    point.loose[i] = (point.loose[i] + (2 * n_ + 8) * bounds::unit * size) * bounds::up;
   }
   Work::count(Work::coefficient, static_cast<double>(m_) * n_ * (N + n_ * NJ));
 }
@@ -214,8 +214,7 @@ void FlowStepper::evaluateInputs(const FlowSet& set, const std::vector<double>& 
   addColumnSizes(columns, plain);
   Eigen::MatrixXd all(n_, n_);  // Σ_{α≠0} |Ψ_α|
   for (int i = 0; i < n_; ++i)
-    for (int j = 0; j < n_; ++j)
-      all(i, j) = point.psiSum[at(i * n_ + j)] - std::fabs(point.psi[at(i * n_ + j)]) * bounds::down;
+    for (int j = 0; j < n_; ++j) all(i, j) = point.psiSum[i * n_ + j] - std::fabs(point.psi[i * n_ + j]) * bounds::down;
   Eigen::MatrixXd higher = all;  // without those taken below
   for (std::size_t l = 0; l < symbols; ++l) {
     const int g = monomials().linear(static_cast<int>(l));
@@ -262,24 +261,24 @@ double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<
 }
 
 double FlowStepper::looseBound(int i) const {
-  double loose = e1_[at(i)] + driven_[at(i)];
-  for (int j = 0; j < n_; ++j) loose += epsilon_[at(i * n_ + j)] * (total_[at(j)] + inputs_.total(j));
+  double loose = e1_[i] + driven_[i];
+  for (int j = 0; j < n_; ++j) loose += epsilon_[i * n_ + j] * (total_[j] + inputs_.total(j));
   loose += series_.lowNorm(i);
-  if (isUnsettled()) loose += unsettled_[at(i)];
+  if (isUnsettled()) loose += assumed_.unsettled[at(i)];
   return loose * bounds::up;
 }
 
 double FlowStepper::tubeBound(int i) const {
-  return (E_[at(i)] + series_.lowNorm(i) + (isUnsettled() ? unsettled_[at(i)] : 0.0)) * bounds::up;
+  return (E_[i] + series_.lowNorm(i) + (isUnsettled() ? assumed_.unsettled[at(i)] : 0.0)) * bounds::up;
 }
 
 void FlowStepper::boundDerivatives() {
   for (int i = 0; i < n_; ++i) {
-    second_[at(i)] = series_.derivativeNorm(i, 2, theta_);
-    third_[at(i)] = series_.derivativeNorm(i, 3, theta_);
-    turning_[at(i)] = 0;
+    second_[i] = series_.derivativeNorm(i, 2, theta_);
+    third_[i] = series_.derivativeNorm(i, 3, theta_);
+    turning_[i] = 0;
     for (int j = 0; j < n_; ++j)
-      if (total_[at(j)] > 0) turning_[at(i)] += series_.frameDerivativeNorm(i, j, 2, theta_) * total_[at(j)];
+      if (total_[j] > 0) turning_[i] += series_.frameDerivativeNorm(i, j, 2, theta_) * total_[j];
   }
 }
 
@@ -287,13 +286,14 @@ void FlowStepper::sag(double from, double to, std::vector<FlowSag>& sags) const 
   sags.clear();
   for (int i = 0; i < n_; ++i) {  // in σ, exactly; what is damped is no convex function of time
     double besides =
-        growth_.isDamped() || growth_.isAbout() ? looseBound(i) : (driven_[at(i)] + inputs_.rest(i)) * bounds::up;
+        growth_.isDamped() || growth_.isAbout() ? looseBound(i) : (driven_[i] + inputs_.rest(i)) * bounds::up;
     // Of l = x - p - Ψ (r + Γs), |l| ≤ looseBound, chords leave out λ l(0) at the part 1 - λ of the way: it may have
     // turned about by then.
-    if (growth_.isAbout() && from == 0) besides = (besides + looseAtStart_[at(i)]) * bounds::up;
-    if (!bent_.empty()) besides = (besides + bent_[at(i)]) * bounds::up;
-    if (isUnsettled()) besides = (besides + 2 * unsettled_[at(i)]) * bounds::up;  // chords begin where solutions were
-    sags.push_back({series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turning_[at(i)]), besides});
+    if (growth_.isAbout() && from == 0) besides = (besides + looseAtStart_[i]) * bounds::up;
+    if (!bent_.empty()) besides = (besides + bent_[i]) * bounds::up;
+    if (isUnsettled())
+      besides = (besides + 2 * assumed_.unsettled[at(i)]) * bounds::up;  // chords begin where solutions were
+    sags.push_back({series_.sag(i, from / h0_, to / h0_, second_[i], third_[i], turning_[i]), besides});
   }
 }
 
@@ -333,9 +333,9 @@ void FlowStepper::turnFrame(FlowSet& set) {
   Eigen::VectorXd R(n_), total(n_), w(n_);
   for (int j = 0; j < n_; ++j) {
     sorted.col(j) = psi.col(order[at(j)]);
-    R(j) = set.R[at(order[at(j)])];
-    total(j) = end_.total[at(order[at(j)])];
-    w(j) = end_.loose[at(j)] / unit(j);
+    R(j) = set.R[order[at(j)]];
+    total(j) = end_.total[order[at(j)]];
+    w(j) = end_.loose[j] / unit(j);
   }
   const Matrix Q = Eigen::HouseholderQR<Matrix>(sorted).householderQ();
   Matrix T = Q.transpose() * sorted;
@@ -364,11 +364,11 @@ void FlowStepper::turnFrame(FlowSet& set) {
   Eigen::Map<Eigen::VectorXd>(set.R.data(), n_) = (T.cwiseAbs() * R + merged + box) * bounds::up;
   if (!inputs_.empty()) mergeInputs(set, at(inputs_.count()), mostInputNumbers);
   for (int i = 0; i < n_; ++i) {
-    set.W[at(i)] = 0;
+    set.W[i] = 0;
     for (int j = 0; j < n_; ++j) {
-      double& entry = set.C[at(i * n_ + j)];
+      double& entry = set.C[i * n_ + j];
       entry = Q(i, j) * unit(i);
-      if (entry / unit(i) != Q(i, j)) set.W[at(i)] = bounds::tiny;  // underflow
+      if (entry / unit(i) != Q(i, j)) set.W[i] = bounds::tiny;  // underflow
     }
   }
 }
@@ -480,7 +480,7 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   const std::size_t there = set.generators.size() / (set.powers * at(n_));
   if (static_cast<double>(there) > kept) mergeGenerators(set, monomials(), static_cast<std::size_t>(kept / 2));
   set.C.assign(at(n_ * n_), 0.0);
-  for (int i = 0; i < n_; ++i) set.C[at(i * n_ + i)] = 1;
+  for (int i = 0; i < n_; ++i) set.C[i * n_ + i] = 1;
 }
 
 void FlowStepper::advance(FlowSet& set) {
@@ -500,25 +500,25 @@ void FlowStepper::advance(FlowSet& set) {
 
 /// What the next step starts from besides.
 void FlowStepper::endStep(FlowSet& set) {
-  set.slideStep = isSliding_ ? h_ : 0;
-  set.hasSlid = set.hasSlid || isSliding_;
+  set.slideStep = course_.isSliding ? h_ : 0;
+  set.hasSlid = set.hasSlid || course_.isSliding;
   set.p = end_.p;
   if (series_.isFine()) set.low = end_.low;
   // A step that jumps made short says little of the next: that is as long as the one before was, once none does.
   // After one that its end cut short, the next goes on as if nothing had been.
-  if ((isShortened_ || isCut_) && set.freeStep == 0) set.freeStep = set.nextStep;
-  if (isCut_)
+  if ((course_.isShortened || course_.isCut) && set.freeStep == 0) set.freeStep = set.nextStep;
+  if (course_.isCut)
     set.nextStep = std::max(set.nextStep, set.freeStep);
   else
-    set.nextStep = isSliding_ ? 2 * h_ : std::max(h_ * 1.1, set.freeStep);
-  if (!isShortened_ && !isCut_) set.freeStep = 0;
-  if (!isCut_) set.dampedStep = dampedStep();
+    set.nextStep = course_.isSliding ? 2 * h_ : std::max(h_ * 1.1, set.freeStep);
+  if (!course_.isShortened && !course_.isCut) set.freeStep = 0;
+  if (!course_.isCut) set.dampedStep = dampedStep();
   set.caution = caution_;
   set.units = growth_.units();
   if (set.first.empty())
     for (int i = 0; i < n_; ++i) set.first.push_back(series_.norm(i));
   set.largest.resize(at(n_), 0.0);
-  for (int i = 0; i < n_; ++i) set.largest[at(i)] = std::max(set.largest[at(i)], series_.norm(i));
+  for (int i = 0; i < n_; ++i) set.largest[i] = std::max(set.largest[i], series_.norm(i));
 }
 
 }  // namespace gamut
