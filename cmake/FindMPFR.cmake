@@ -1,10 +1,14 @@
 # Finds MPFR and GMP: targets MPFR::MPFR and GMP::GMP, variable MPFR_FOUND.
 find_path(GMP_INCLUDE_DIR gmp.h)
-# Static ones where there are such: operations read their thread's flags without a call then, which is a third of what they
-# take. Whoever hands out programs may name the shared ones.
-find_library(GMP_LIBRARY NAMES libgmp.a gmp)
+# With GAMUT_STATIC_MPFR static ones where there are such: operations read their thread's flags without a call then, which
+# is a third of what they take. For programs alone: Debian's are not made for shared objects.
+if(GAMUT_STATIC_MPFR)
+  set(staticGmp libgmp.a)
+  set(staticMpfr libmpfr.a)
+endif()
+find_library(GMP_LIBRARY NAMES ${staticGmp} gmp NAMES_PER_DIR)
 find_path(MPFR_INCLUDE_DIR mpfr.h)
-find_library(MPFR_LIBRARY NAMES libmpfr.a mpfr)
+find_library(MPFR_LIBRARY NAMES ${staticMpfr} mpfr NAMES_PER_DIR)
 mark_as_advanced(GMP_INCLUDE_DIR GMP_LIBRARY MPFR_INCLUDE_DIR MPFR_LIBRARY)
 
 include(FindPackageHandleStandardArgs)

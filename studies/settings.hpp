@@ -1,5 +1,5 @@
-// What a study file says beside its mechanism: sections and their keys, each described once, and visited by the reader,
-// which fills them in, by the guide and by the schema of study files.
+// What a study file says, but for the elements of its mechanism: sections and their keys, each described once, and
+// visited by the reader, which fills them in, by the guide and by the schema of study files.
 //
 //   s.whole({"levels", "number of alpha-cuts from 0 to 1", "11"}, 2, 101, study.levels);
 #pragma once

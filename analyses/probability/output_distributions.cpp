@@ -60,7 +60,7 @@ bool OutputDistributions::isVague(const TightenedSurrogate& surrogate) const {
 bool OutputDistributions::tighten(TightenedSurrogate& surrogate) {
   double forFlows = 0.5 * options_.workLeft();
   bool isTighter = false;
-  while (surrogate.mayTighten() && isVague(surrogate) && !*options_.cancelled) {
+  while (surrogate.mayTighten() && isVague(surrogate) && !isCancelled()) {
     const std::uint64_t counted = Work::counted();
     if (!surrogate.tighten(forFlows)) break;
     forFlows -= static_cast<double>(Work::counted() - counted);
@@ -78,7 +78,7 @@ void OutputDistributions::boundAll(const TightenedSurrogate& surrogate, ModelMas
   const JointMasses& joint = masses.in(surrogate->symbols, surrogate->quantities);
   constexpr double forOthers = 0.2, hardly = 1e-3;
   const double all = share * (1 - forOthers) * options_.workLeft(), least = options_.workLeft() - all;
-  for (double gap = coarsest; !*options_.cancelled; gap = std::max(0.5 * gap, finest)) {
+  for (double gap = coarsest; !isCancelled(); gap = std::max(0.5 * gap, finest)) {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < found_.size(); ++i)
       if (found_[i].gap > gap && tried_[i].mayHelp) open.push_back(i);

@@ -19,7 +19,8 @@ struct OutputDistributionsOptions {
   double gap = 0.005;  ///< between the bounds, aimed at
   int jobs = 1;        ///< threads
   const std::atomic<bool>* cancelled = nullptr;
-  std::function<double()> workLeft;           ///< that may still be done (work.hpp); a fifth of it is left to others
+  /// That may still be done (work.hpp), of which a fifth is left to others. Has to be there.
+  std::function<double()> workLeft;
   std::function<void(double)> progress = {};  ///< from any thread
 };
 
@@ -31,17 +32,18 @@ class OutputDistributions {
   /// What was found until it was cancelled, or memory failed (std::bad_alloc), holds.
   void find(TightenedSurrogate& surrogate, ModelMasses& masses);
 
-  /// Of one of the times; empty where nothing is known.
-  const DistributionBounds& at(std::size_t row, std::size_t output) const { return found_[row * outputs() + output]; }
+  /// Of the time-th of the times; empty where nothing is known.
+  const DistributionBounds& at(std::size_t time, std::size_t output) const { return found_[time * outputs() + output]; }
   /// Whether more work would bring some of them closer, that are farther apart than was aimed at.
   bool isLimited() const { return isLimited_; }
   /// Whether errors of the polynomials keep bounds apart: more than is asked for, and not less than all else does.
   bool isVague(const TightenedSurrogate& surrogate) const;
-  /// Into which the box is cut for one of them; of fewer into `mostOfFew`.
+  /// Into so many cells one of them may cut the box; where there are few, into `mostOfFew`.
   std::size_t mostCells() const;
   static constexpr std::size_t mostOfFew = 4096;
 
  private:
+  bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
   std::size_t outputs() const { return nothing_.size(); }
   bool tighten(TightenedSurrogate& surrogate);
   void boundAll(const TightenedSurrogate& surrogate, ModelMasses& masses, double share, double coarsest, double finest);
@@ -56,7 +58,7 @@ class OutputDistributions {
   std::vector<std::size_t> rows_;
   std::vector<char> nothing_;
   OutputDistributionsOptions options_;
-  std::vector<DistributionBounds> found_;  // [row][output]
+  std::vector<DistributionBounds> found_;  // [time][output]
   std::vector<Tried> tried_;
   bool isLimited_ = false;
 };

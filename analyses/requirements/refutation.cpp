@@ -71,8 +71,9 @@ std::optional<Refutation> refute(const ThinQuestion& asked,
                                  const std::function<ThinMargins(const std::vector<double>&)>& flow) {
   const bool isAlways = asked.question.when == CellQuestion::When::always;
   std::vector<double> times = asked.times;
+  const auto isCancelled = [&] { return asked.cancelled != nullptr && *asked.cancelled; };
   constexpr int mostRounds = 6;
-  for (int round = 0; round <= (asked.looksBetween ? mostRounds : 0) && !*asked.cancelled; ++round) {
+  for (int round = 0; round <= (asked.looksBetween ? mostRounds : 0) && !isCancelled(); ++round) {
     const ThinMargins thin = flow(times);
     CellQuestion question = asked.question;
     question.from = rowAt(thin.times, asked.from);

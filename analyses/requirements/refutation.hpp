@@ -24,13 +24,13 @@ struct ThinMargins {
 /// What is asked of them: of `question` all but its rows.
 struct ThinQuestion {
   CellQuestion question;
-  double from = 0, until = 0;      ///< s: the window
-  std::vector<double> times = {};  ///< s: the output times
-  bool looksBetween = false;       ///< also at others
-  const std::atomic<bool>* cancelled = nullptr;
+  double from = 0, until = 0;                    ///< s: the window
+  std::vector<double> times = {};                ///< s: the output times
+  bool looksBetween = false;                     ///< also at others
+  const std::atomic<bool>* cancelled = nullptr;  ///< null: never
 };
 
-/// That all that is known of the values is that they violate it.
+/// A proof that the values violate it, whatever else of the motion is not known.
 struct Refutation {
   /// When it is missed most (of what must be met once: least), and by how much, as far as that is told; at an output
   /// time, if there is one.
@@ -39,7 +39,7 @@ struct Refutation {
   bool isBetween = false;  ///< between output times alone is it proved
 };
 
-/// `flow`: their motion, with margins at these times.
+/// `flow`: their motion, with margins at these times. None where that is not proved, or once cancelled.
 std::optional<Refutation> refute(const ThinQuestion& asked,
                                  const std::function<ThinMargins(const std::vector<double>&)>& flow);
 

@@ -17,7 +17,8 @@ void TightenedSurrogate::take() {
     for (SurrogatePart& each : surrogate_.at[i])
       for (std::size_t k = 0; k < form_.outputs; ++k) {
         Interval& bound = each.outputs[k].bound;
-        if (const Interval both = intersection(bound, form_.known(surrogate_.rows[i], k)); !isEmpty(both)) bound = both;
+        const Interval known = form_.known ? form_.known(surrogate_.rows[i], k) : Interval::entire();
+        if (const Interval both = intersection(bound, known); !isEmpty(both)) bound = both;
         if (isBounded(bound)) negligible_[k] = std::max(negligible_[k], part * magnitude(bound));
       }
 }

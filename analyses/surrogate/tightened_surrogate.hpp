@@ -15,7 +15,7 @@ namespace gamut {
 struct SurrogateForm {
   std::vector<int> components;        ///< of the box, one a quantity
   std::size_t from = 0, outputs = 0;  ///< the first, and how many, of the models' outputs
-  /// Where an output is known to be at an output time, whatever part of the box it is of; all numbers where it is not.
+  /// Where an output is known to be at an output time, whatever part of the box it is of; none: nowhere.
   std::function<Interval(std::size_t row, std::size_t output)> known;
   std::function<FlowOptions()> tighter;  ///< of flows that tighten the models
   const std::atomic<bool>* cancelled = nullptr;

@@ -1,6 +1,5 @@
 // What is possible in kinematics: the enclosures of the alpha-cuts' boxes, narrowed by fuzzy numbers that move the
 // assembly.
-#include <new>
 #include <utility>
 
 #include "scalars/fuzzy.hpp"
@@ -36,12 +35,8 @@ void narrow(std::vector<Bounds>& cuts, const std::vector<Fuzzy>& outputs) {
 }  // namespace
 
 void narrowByAssembly(Run& run, FuzzyResult& fuzzy) {
-  try {
-    narrow(fuzzy.outer, assembledOutputs(run.machine, fuzzyNumbers(run.machine)));
-  } catch (const std::bad_alloc&) {
-    run.watch.memoryFailed();
-    fuzzy.why = run.watch.why();
-  }
+  const auto task = [&] { narrow(fuzzy.outer, assembledOutputs(run.machine, fuzzyNumbers(run.machine))); };
+  if (!hasRoomFor(run, task)) fuzzy.why = run.watch.why();
 }
 
 }  // namespace gamut

@@ -1,7 +1,9 @@
 // What every unit of a run has at hand: the machine, how it is run, who watches, and what is spent.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <new>
 #include <string>
 
 #include "analyses/work.hpp"
@@ -36,8 +38,8 @@ struct Run {
   Spent spent;  ///< by the units, as they end
 };
 
-/// While it lives, the work of this thread, and of those that it waits for, and the CPU time of all, s, are charged
-/// there; where there are none, to nobody.
+/// From its making to its end, adds the work of this thread and of those that it waits for to `*work`, and the
+/// process's CPU time, s, to `*cpu`; null: to nobody.
 class Charge {
  public:
   explicit Charge(double* work, double* cpu = nullptr) : work_(work), cpu_(cpu) {}
@@ -54,6 +56,18 @@ class Charge {
   const std::uint64_t counted_ = Work::counted();
   const double began_ = processCpuSeconds();
 };
+
+/// Does it; false where memory did not suffice, of which the watch is told.
+template <class Task>
+bool hasRoomFor(Run& run, const Task& task) {
+  try {
+    task();
+    return true;
+  } catch (const std::bad_alloc&) {
+    run.watch.memoryFailed();
+    return false;
+  }
+}
 
 /// So much work may still be done for requirements, or for probabilities: their share of what enclosure and samples
 /// took, and what answers before them have left. Counted, so that it is the same in every run.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -35,10 +34,7 @@ class Encloser {
       const Charge charge(&work, &cpu);
       run_.watch.begin(Watch::Stage::enclosure);
       clear();
-      try {
-        run_.moves() ? encloseMotion() : encloseConfiguration();
-      } catch (const std::bad_alloc&) {
-        run_.watch.memoryFailed();
+      if (!hasRoomFor(run_, [&] { run_.moves() ? encloseMotion() : encloseConfiguration(); })) {
         clear();
         found.why = run_.watch.why();
       }
@@ -197,6 +193,21 @@ FlowOptions enclosureOptions(const Run& run, const OutputScales& scales) {
                                  : saysNothing * std::max({scales[o].size, scales[o].span, flow.floors[o]}));
   flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
   return flow;
+}
+
+void boundModels(const Run& run, FlowOptions& options) {
+  constexpr double mostAt = 1.28e8;  // bytes, but at the times of distributions: of more output times there are fewer
+  options.modelAtBytes = options.modelBytes = std::min(options.modelBytes, 0.25 * run.limits.enclosureMemory);
+  options.thinAtBytes = std::min(mostAt, options.modelAtBytes);
+  options.firstAt = distributionRows(run.study);
+}
+
+FlowOptions tighterOptions(const Run& run, double longestStep, const char* task) {
+  FlowOptions options = flowOptions(run.machine, run.options.jobs, run.watch.stop());
+  options.longestStep = std::min(options.longestStep, longestStep);
+  options.progress = run.progressOf(task);
+  boundModels(run, options);
+  return options;
 }
 
 Enclosure enclose(Run& run, const Seen& seen, const OutputScales& scales, Results& results) {

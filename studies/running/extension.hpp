@@ -14,11 +14,11 @@ struct Extension {
   std::size_t met = 0, changed = 0;  ///< kept motions that came again, and those that are not the same bit for bit
 };
 
-/// The results with `options.samples` samples in all, the former among them, by plan, seed and number. Statistics need
-/// every sample, so these are integrated again too. Limits are those of the extension alone; seeds and time of a sample
-/// those of the results. `machine` is that of the results. Throws std::invalid_argument, saying why, where results hold
-/// no samples or as many already, by plans that put the first of more samples elsewhere, and for samples that would be
-/// others: another version has read the study otherwise, or moves it so.
-Extension extend(const Machine& machine, const Results& results, const RunOptions& options);
+/// The results `former` with `options.samples` samples in all, the former among them, by plan, seed and number.
+/// Statistics need every sample, so these are integrated again too. Limits are those of the extension alone; seeds and
+/// time of a sample those of the results. `machine` is that of the results. Throws std::invalid_argument, saying why,
+/// where results hold no samples or as many already, by plans that put the first of more samples elsewhere, and for
+/// samples that would be others: another version has read the study otherwise, or moves it so.
+Extension extend(const Machine& machine, const Results& former, const RunOptions& options);
 
 }  // namespace gamut

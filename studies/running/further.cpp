@@ -1,6 +1,4 @@
 // Analyses of their own files.
-#include <new>
-
 #include "studies/running/units.hpp"
 
 namespace gamut {
@@ -13,12 +11,7 @@ void findFurther(Run& run, Results& results) {
     FurtherPart& part = *results.further[i];
     const Charge charge(nullptr, &part.cpu);
     part.present = true;
-    try {
-      analysis.find(run, results, part);
-    } catch (const std::bad_alloc&) {
-      run.watch.memoryFailed();
-      part.why = run.watch.why();
-    }
+    if (!hasRoomFor(run, [&] { analysis.find(run, results, part); })) part.why = run.watch.why();
     if (*run.watch.stop()) part.stopped = run.watch.why();
   }
 }

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
-#include <optional>
-#include <span>
+#include <limits>
 
 #include "analyses/probability/output_distributions.hpp"
 #include "analyses/probability/quantity_masses.hpp"
@@ -302,6 +300,12 @@ class Probabilities {
 
 }  // namespace
 
+bool asksForDistributions(const Study& study) {
+  return study.distribution.count > 0 && study.asksFor<StochasticResult>() &&
+         (study.asksFor<IntervalResult>() || study.asksFor<FuzzyResult>()) &&
+         study.outputs.size() > marginOutputs(study).size();
+}
+
 std::vector<std::size_t> distributionRows(const Study& study) {
   const std::vector<double>& times = study.times;
   std::vector<std::size_t> rows;
@@ -322,11 +326,7 @@ void boundProbabilities(Run& run, const OutputScales& scales, Enclosure& enclosu
   const Charge charge(&run.spent.probabilities, &results.distribution.cpu);
   results.distribution.present = true;
   Probabilities probabilities(run, scales, enclosure.models, masses, enclosure.why, results);
-  try {
-    probabilities.find();
-  } catch (const std::bad_alloc&) {
-    run.watch.memoryFailed();
-  }
+  hasRoomFor(run, [&] { probabilities.find(); });  // what was found until then is told
   probabilities.describe();
   enclosure.models.reset();
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <new>
 #include <vector>
 
 #include "analyses/samples/binomial.hpp"
@@ -146,11 +145,8 @@ void estimateRequirements(Run& run, std::size_t reachedTimes, SampledMotion& sam
   if (open.empty() || run.study.horizon == 0) return;
   const Charge charge(&run.spent.samples, &results.stochastic.cpu);
   run.watch.begin(Watch::Stage::rest);
-  try {
-    if (run.study.ensemble.plan != Plan::random) sampleIndependently(run, open, samples, results);
-  } catch (const std::bad_alloc&) {
-    run.watch.memoryFailed();
-  }
+  if (run.study.ensemble.plan != Plan::random)
+    hasRoomFor(run, [&] { sampleIndependently(run, open, samples, results); });  // else fewer are told of
   std::vector<std::vector<double>> coefficients;
   std::vector<char> atZero;
   for (const std::size_t r : open) {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <new>
 #include <utility>
 
 #include "analyses/requirements/requirement.hpp"
@@ -213,11 +212,11 @@ void proveWhileThereIsRoom(Run& run, Results& results, const Prove& prove) {
   if (run.study.requirements.empty()) return;
   run.watch.begin(Watch::Stage::rest);
   double cpu = 0;
-  try {
+  const auto task = [&] {
     const Charge charge(nullptr, &cpu);
     prove();
-  } catch (const std::bad_alloc&) {
-    run.watch.memoryFailed();
+  };
+  if (!hasRoomFor(run, task)) {
     for (RequirementResult& result : results.requirements)
       if (result.word == Decision::open) result.why = run.watch.why();
   }
@@ -237,7 +236,10 @@ class RequirementProof {
         suspects_(results.requirements.size()) {}
 
   void proveAll() {
-    constexpr double ofKnown = 1.0 / 3, parts = 128;  // of the horizon: outputs leave the chords of long steps
+    // A third of what is left is for what the enclosure's own models say, and half of what then is left for a tighter
+    // flow.
+    constexpr double ofKnown = 1.0 / 3;
+    constexpr double parts = 128;  // of the horizon: outputs leave the chords of long steps
     if (enclosure_.models) examineAll(ofKnown);
     for (int round = 0; round < 2 && mayTighten(); ++round) {
       {
@@ -262,8 +264,7 @@ class RequirementProof {
     return sharpenedModels(run_.machine, results_.interval, enclosure_.models.get());
   }
 
-  /// Each gets as much of what is left; a third of that is for what the enclosure's own models say, and half of what
-  /// then is left for a tighter flow.
+  /// With this part of the work that is left, of which each gets as much.
   void examineAll(double part) {
     const std::shared_ptr<const FlowModels> known = models();
     const auto isOpen = [&](const RequirementResult& result) { return isVague(study_, result); };

@@ -102,8 +102,6 @@ Run::Run(const Machine& whatMoves, const RunOptions& howToRun, const Limits& its
       limits(itsLimits),
       watch(limits, options.cancelled, {options.overdue}, machine.cpu) {}
 
-double Run::basis() const { return std::max(spent.enclosure + spent.samples, Shares::least * Work::perSecond); }
-
 std::function<void(double)> Run::progressOf(const std::string& task) const {
   if (!options.progress) return {};
   return [this, task](double fraction) { options.progress(task, fraction); };
@@ -145,7 +143,14 @@ Results run(const Machine& machine, const RunOptions& options) {
   takeFirstSamples(run, samples, results);
   Enclosure enclosure = enclose(run, seen, samples.scales, results);
   std::string failure;
-  try {
+  const auto goOn = [&](const auto& units) {  // a failure must not cost what was proved
+    try {
+      units();
+    } catch (const std::exception& error) {
+      if (failure.empty()) failure = printable(error.what());
+    }
+  };
+  goOn([&] {
     takeOtherSamples(run, enclosure, samples, results);
     countRequirements(machine.study, results);
     estimateRequirements(run, enclosure.reachedTimes, samples, results);
@@ -154,12 +159,14 @@ Results run(const Machine& machine, const RunOptions& options) {
     boundProbabilities(run, samples.scales, enclosure, masses, results);
     compareShares(machine.study, samples, results);
     findFurther(run, results);
-  } catch (const std::exception& error) {  // must not cost what was proved
-    failure = printable(error.what());
-  }
+  });
   noteStop(run, failure, results);
-  compareAnswers(run, enclosure.reachedTimes, samples, results);
-  if (failure.empty()) showSamples(run, seen, enclosure.why, samples.motion, results);
+  const bool isWhole = failure.empty();
+  goOn([&] {
+    compareAnswers(run, enclosure.reachedTimes, samples, results);
+    if (isWhole) showSamples(run, seen, enclosure.why, samples.motion, results);
+  });
+  if (isWhole && !failure.empty()) noteStop(run, failure, results);
   results.cpu = run.watch.spent();
   results.memory = peakMemory();
   return results;

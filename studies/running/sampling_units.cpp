@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <new>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -23,14 +22,10 @@ void sampleWhileThereIsRoom(Run& run, Watch::Stage stage, SampledMotion& samples
                             const Sample& sample) {
   const Charge charge(&run.spent.samples, &result.cpu);
   run.watch.begin(stage);
-  try {
-    sample();
-  } catch (const std::bad_alloc&) {
-    run.watch.memoryFailed();
-    samples.ensemble.reset();
-    result.kept = {};
-    result.stopped = run.watch.why();
-  }
+  if (hasRoomFor(run, sample)) return;
+  samples.ensemble.reset();
+  result.kept = {};
+  result.stopped = run.watch.why();
 }
 
 EnsembleOptions ensembleOptions(const Run& run, const Results& results) {

@@ -1,5 +1,6 @@
 // The units of a run: each says in its arguments what it needs, and gives what it finds to those behind it. What the
-// study does not ask for, they do not do. `run` (run.cpp) calls all of them, `extend` those that samples ask for.
+// study does not ask for, they do not do. `run` (run.cpp) calls all but one of them, `extend` those that samples ask
+// for.
 #pragma once
 
 #include <cstddef>
@@ -81,7 +82,8 @@ void seekAdvice(Run& run, const OutputScales& scales, Enclosure& enclosure, Resu
 /// Of each requirement, what is proved.
 void checkRequirements(Run& run, const SampledMotion& samples, Enclosure& enclosure, ModelMasses& masses,
                        Results& results);
-/// Where nothing was proved, but a sample violates a requirement: proves that it does.
+/// Where nothing was proved, but a sample violates a requirement: proves that it does. Of an extension, for
+/// checkRequirements proves that too.
 void refuteRequirements(Run& run, const SampledMotion& samples, Results& results);
 /// How probable values of the outputs are, and whose doing their variance is. Nobody needs the models any more.
 void boundProbabilities(Run& run, const OutputScales& scales, Enclosure& enclosure, ModelMasses& masses,

@@ -1,4 +1,4 @@
-// Models take the place of others only where they are tighter, reach as far, and cost no more than they may.
+// Models take the place of others only where they reach as far, and cost no more than they may.
 #include "analyses/flow/tightened_models.hpp"
 
 #include <gtest/gtest.h>

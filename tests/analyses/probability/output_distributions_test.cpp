@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "analyses/work.hpp"
 #include "scalars/recorded.hpp"
@@ -66,6 +67,49 @@ TEST(OutputDistributions, HoldClosedFormsAsCloselyAsIsAskedFor) {
       const double truth = v <= 1 ? 0.5 * v * v : 1 - 0.5 * (2 - v) * (2 - v);
       EXPECT_TRUE(sum.lower[i] <= truth && truth <= sum.upper[i]) << sum.value[i];
     }
+  }
+}
+
+/// y = exp(x) of a state at rest, by polynomials of degree 1 at first: what they miss is more than is asked for.
+TEST(OutputDistributions, AskForTighterPolynomialsWhereTheseKeepThemApart) {
+  const Box box = {Interval(0.5, 1.5)};
+  const auto enclose = [&](FlowOptions options) {
+    options.modelledAt = {0};
+    options.split = false;
+    options.degree = options.tightness > 1.25 ? 1 : 8;
+    Program f = record(1, 0, 1, [](const auto&, const auto& x, const auto&, auto& dx) { dx[0] = 0 * x[0]; });
+    Program g = record(1, 0, 1, [](const auto&, const auto& x, const auto&, auto& y) { y[0] = exp(x[0]); });
+    return Flow(std::move(f), std::move(g), std::move(options)).enclose(box, 1, {1.0});
+  };
+  FlowOptions loose;
+  loose.tightness = 1.5;
+  TightenedModels models(enclose(loose).models(), loose.tightness, 0, enclose);
+  ASSERT_TRUE(models);
+  const double least = std::exp(0.5), most = std::exp(1.5);
+  TightenedSurrogate surrogate(
+      models,
+      {{0}, 0, 1, [&](std::size_t, std::size_t) { return Interval(least, most); }, [] { return FlowOptions(); }});
+  Uncertain x = Sums::quantity("x");
+  x.range = box[0];
+  x.nominal = 1;
+  x.distribution = Distribution::uniform(x.range);
+  ModelMasses masses({&x}, {});
+  OutputDistributions found({1}, {0}, {0.01, 2, nullptr, [] { return 1e10; }});
+  surrogate.take();
+  ASSERT_FALSE(surrogate.isNone());
+  EXPECT_TRUE(found.isVague(surrogate));
+  for (const SurrogatePart& part : *surrogate.partsAt(1)) {  // what is known besides narrows bounds
+    EXPECT_GE(part.outputs[0].bound.lower(), least);
+    EXPECT_LE(part.outputs[0].bound.upper(), most);
+  }
+  found.find(surrogate, masses);
+  EXPECT_FALSE(found.isVague(surrogate));
+  EXPECT_LT(models.excess(), models.firstExcess());
+  const DistributionBounds& bounds = found.at(0, 0);
+  EXPECT_LE(bounds.gap, 0.01);
+  for (std::size_t i = 0; i < bounds.value.size(); ++i) {
+    const double truth = std::clamp(std::log(bounds.value[i]) - 0.5, 0.0, 1.0);
+    EXPECT_TRUE(bounds.lower[i] <= truth && truth <= bounds.upper[i]) << bounds.value[i];
   }
 }
 
