@@ -158,8 +158,8 @@ void PolynomialSeries::multiplyGrade(int q) {
 
 /// The recursion in time for `count` monomials of grade q, from number `first` on.
 void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
-  const int orders = ordersOf(q);
   const bool isFrame = plan_.withFrame && q <= plan_.frameDegree;
+  const int orders = ordersOf(q), entries = isFrame ? plan_.states * plan_.states : 0;
   const auto load = [&](const double* series, int from, int to, double* out) {
     kernels::loadLanes(series + first * stride(), stride(), count, from, to, out);
   };
@@ -167,12 +167,11 @@ void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
   for (const int target : grades_.targets)
     if (const SeriesNode& v = plan_[target]; v.degree >= q)
       load(series(v), 0, v.invariant ? 1 : orders, lane(target, 0));
-  if (isFrame)
-    for (int e = 0; e < plan_.states * plan_.states; ++e) {
-      load(series(plan_.ofProgram + e), 0, 1, lane(plan_.ofProgram + e, 0));
-      load(&grades_.frameProducts[at(e * plan_.frameCount * stride())], 0, orders,
-           &grades_.frameLanes[at(e * stride() * lanes)]);
-    }
+  for (int e = 0; e < entries; ++e) {
+    load(series(plan_.ofProgram + e), 0, 1, lane(plan_.ofProgram + e, 0));
+    load(&grades_.frameProducts[at(e * plan_.frameCount * stride())], 0, orders,
+         &grades_.frameLanes[at(e * stride() * lanes)]);
+  }
   for (int i = 0; i < orders; ++i) {
     for (int x = 0; x < plan_.ofProgram; ++x) {
       if (plan_[x].degree < q || (i > 0 && plan_[x].invariant)) continue;
@@ -200,7 +199,7 @@ void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
     }
   double multiplicities[lanes] = {};
   for (int l = 0; l < count; ++l) multiplicities[l] = monomials().multiplicity(first + l);
-  for (int x = 0; x < plan_.ofProgram + (isFrame ? plan_.states * plan_.states : 0); ++x) {
+  for (int x = 0; x < plan_.ofProgram + entries; ++x) {
     const SeriesNode& v = plan_[x];
     if (v.degree < q || x == plan_.time || v.constant) continue;
     const int computed = v.invariant && v.op != Op::state ? 1 : orders;
@@ -214,8 +213,7 @@ void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
                           &r_[v.r + at(first * kernels::paddedStride(stride()) + kernels::padding(stride()))],
                           kernels::paddedStride(stride()));
     if (v.d != SeriesNode::none)
-      kernels::storeLanes(&grades_.slopes[grades_.slopeAt[x]], computed, count, &d_[v.d + at(first * stride())],
-                          stride());
+      kernels::storeLanes(&grades_.slopes[grades_.slopeAt[x]], computed, count, slopes(v, first), stride());
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <map>
 
+#include "analyses/flow/embedding.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "tests/analyses/flow/jumping_machine.hpp"
 

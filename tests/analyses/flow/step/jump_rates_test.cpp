@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analyses/flow/embedding.hpp"
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/step/step.hpp"
 #include "tests/analyses/flow/containment.hpp"
