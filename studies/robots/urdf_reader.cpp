@@ -23,7 +23,7 @@
 namespace gamut {
 namespace {
 
-using Element = XmlSource::Element;
+using Tag = XmlSource::Element;
 
 constexpr std::size_t mostLinks = 1000;
 constexpr std::uintmax_t mostBytes = 4'000'000;  // meshes lie in files of their own
@@ -107,12 +107,11 @@ class UrdfReader {
   UrdfReader(const std::string& text, const std::string& name) : source_(text, name) { robot_.file = name; }
 
   Robot read() {
-    const Element& root = source_.root("robot");
+    const Tag& root = source_.root("robot");
     lookAt(root, {"name", "version"}, {"link", "joint"});
     if (root.Attribute("name") != nullptr) robot_.name = source_.requiredName(root, "name", "the robot's name");
-    for (const Element* e = root.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link"))
-      readLink(*e);
-    for (const Element* e = root.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint"))
+    for (const Tag* e = root.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) readLink(*e);
+    for (const Tag* e = root.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint"))
       readJoint(*e);
     if (robot_.links.empty()) source_.fail(root.GetLineNum(), "<robot> has no <link>", "one at least");
     checkMimics();
@@ -123,13 +122,13 @@ class UrdfReader {
 
  private:
   /// Notes attributes and elements that are not read. Throws StudyError for what must not be overlooked.
-  void lookAt(const Element& element, std::initializer_list<std::string_view> attributes,
+  void lookAt(const Tag& element, std::initializer_list<std::string_view> attributes,
               std::initializer_list<std::string_view> children) {
     const auto knows = [](const auto& words, std::string_view word) { return std::ranges::count(words, word) != 0; };
     for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next())
       if (!knows(attributes, a->Name()) && !std::string_view(a->Name()).starts_with("xmlns"))
         attributes_.add(fmt::format("'{}' of <{}>", shortened(a->Name()), element.Name()), a->GetLineNum());
-    for (const Element* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    for (const Tag* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       const std::string_view word = e->Name();
       if (word.starts_with("xacro:"))
         source_.fail(e->GetLineNum(), fmt::format("<{}> is of xacro", shortened(word)),
@@ -147,9 +146,9 @@ class UrdfReader {
     limits_.say(source_, ": kept for information; motions may go beyond", robot_.notes);
   }
 
-  Robot::Place readPlace(const Element& parent) {
+  Robot::Place readPlace(const Tag& parent) {
     Robot::Place place;
-    const Element* origin = source_.child(parent, "origin");
+    const Tag* origin = source_.child(parent, "origin");
     if (origin == nullptr) return place;
     lookAt(*origin, {"xyz", "rpy"}, {});
     for (const auto& [attribute, numbers] : {std::pair("xyz", &place.xyz), std::pair("rpy", &place.rpy)})
@@ -158,30 +157,29 @@ class UrdfReader {
     return place;
   }
 
-  void readLink(const Element& element) {
+  void readLink(const Tag& element) {
     lookAt(element, {"name", "type"}, {"inertial"});
     Robot::Link link{source_.requiredName(element, "name", "the name of the link"), element.GetLineNum()};
     if (const auto other = find(robot_.links, link.name); other != robot_.links.end())
       source_.fail(link.line, fmt::format("there is a link {} in line {} already", inQuotes(link.name), other->line),
                    "a name for each");
-    if (const Element* inertial = source_.child(element, "inertial"))
-      link.inertial = readInertial(*inertial, link.name);
+    if (const Tag* inertial = source_.child(element, "inertial")) link.inertial = readInertial(*inertial, link.name);
     robot_.links.push_back(std::move(link));
     if (robot_.links.size() > mostLinks)
       source_.fail(element.GetLineNum(), "there are too many links", fmt::format("at most {}", mostLinks));
   }
 
-  Robot::Inertial readInertial(const Element& element, const std::string& link) {
+  Robot::Inertial readInertial(const Tag& element, const std::string& link) {
     lookAt(element, {}, {"origin", "mass", "inertia"});
     Robot::Inertial inertial;
     inertial.place = readPlace(element);
-    const Element& mass = source_.requiredChild(element, "mass", "<mass value=\"…\"/>, in kg");
+    const Tag& mass = source_.requiredChild(element, "mass", "<mass value=\"…\"/>, in kg");
     lookAt(mass, {"value"}, {});
     inertial.mass = source_.numbers(mass, "value", 1).front();
     if (inertial.mass.upper() < 0)
       source_.fail(mass.GetLineNum(), fmt::format("the mass of {} is negative", inQuotes(link)),
                    "a mass of at least 0 kg");
-    const Element& inertia = source_.requiredChild(
+    const Tag& inertia = source_.requiredChild(
         element, "inertia", "<inertia ixx=\"…\" ixy=\"…\" ixz=\"…\" iyy=\"…\" iyz=\"…\" izz=\"…\"/>");
     lookAt(inertia, {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {});
     constexpr const char* entries[] = {"ixx", "iyy", "izz", "ixy", "iyz", "ixz"};
@@ -192,7 +190,7 @@ class UrdfReader {
     return inertial;
   }
 
-  void readJoint(const Element& element) {
+  void readJoint(const Tag& element) {
     lookAt(element, {"name", "type"}, {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic"});
     Robot::Joint joint;
     joint.line = element.GetLineNum();
@@ -210,14 +208,14 @@ class UrdfReader {
                                  inQuotes(other.name), inQuotes(joint.name)),
                      "a tree, in which each link has one parent (closed loops are not there yet)");
     joint.origin = readPlace(element);
-    if (const Element* axis = source_.child(element, "axis")) readAxis(*axis, joint);
-    if (const Element* limit = source_.child(element, "limit")) joint.limits = readLimits(*limit);
-    if (const Element* dynamics = source_.child(element, "dynamics")) readDynamics(*dynamics, joint);
-    if (const Element* mimic = source_.child(element, "mimic")) joint.mimic = readMimic(*mimic);
+    if (const Tag* axis = source_.child(element, "axis")) readAxis(*axis, joint);
+    if (const Tag* limit = source_.child(element, "limit")) joint.limits = readLimits(*limit);
+    if (const Tag* dynamics = source_.child(element, "dynamics")) readDynamics(*dynamics, joint);
+    if (const Tag* mimic = source_.child(element, "mimic")) joint.mimic = readMimic(*mimic);
     robot_.joints.push_back(std::move(joint));
   }
 
-  Robot::Type readType(const Element& element) const {
+  Robot::Type readType(const Tag& element) const {
     const std::string word = source_.requiredName(element, "type", "its type, such as \"revolute\"");
     std::vector<std::string> words;
     for (const auto& [type, name] : types) {
@@ -229,8 +227,8 @@ class UrdfReader {
                  expectedName(word, words));
   }
 
-  std::string readEnd(const Element& element, const char* end) {
-    const Element& found = source_.requiredChild(element, end, fmt::format("<{} link=\"…\"/>", end));
+  std::string readEnd(const Tag& element, const char* end) {
+    const Tag& found = source_.requiredChild(element, end, fmt::format("<{} link=\"…\"/>", end));
     lookAt(found, {"link"}, {});
     const std::string name = source_.requiredName(found, "link", "the name of a link");
     if (find(robot_.links, name) == robot_.links.end()) {
@@ -241,7 +239,7 @@ class UrdfReader {
     return name;
   }
 
-  void readAxis(const Element& element, Robot::Joint& joint) {
+  void readAxis(const Tag& element, Robot::Joint& joint) {
     lookAt(element, {"xyz"}, {});
     const std::vector<Interval> numbers = source_.numbers(element, "xyz", 3);
     if (std::ranges::all_of(numbers, [](const Interval& x) { return isEqual(x, Interval(0.0)); })) {
@@ -254,7 +252,7 @@ class UrdfReader {
     joint.direction = fmt::format("{}", fmt::join(decimals, " "));
   }
 
-  Robot::Limits readLimits(const Element& element) {
+  Robot::Limits readLimits(const Tag& element) {
     lookAt(element, {"lower", "upper", "effort", "velocity"}, {});
     limits_.add("<limit>", element.GetLineNum());
     Robot::Limits limits;
@@ -265,7 +263,7 @@ class UrdfReader {
     return limits;
   }
 
-  void readDynamics(const Element& element, Robot::Joint& joint) {
+  void readDynamics(const Tag& element, Robot::Joint& joint) {
     lookAt(element, {"damping", "friction"}, {});
     for (const auto& [attribute, number] :
          {std::pair("damping", &joint.damping), std::pair("friction", &joint.friction)}) {
@@ -276,7 +274,7 @@ class UrdfReader {
     }
   }
 
-  Robot::Mimic readMimic(const Element& element) {
+  Robot::Mimic readMimic(const Tag& element) {
     lookAt(element, {"joint", "multiplier", "offset"}, {});
     return {source_.requiredName(element, "joint", "the joint that is followed"),
             source_.number(element, "multiplier", 1.0), source_.number(element, "offset", 0.0), element.GetLineNum()};
