@@ -12,7 +12,7 @@
 namespace gamut {
 namespace {
 
-const std::atomic<bool> goesOn{false}, isCancelled{true};
+const std::atomic<bool> isRunning{false}, isStopped{true};
 
 /// The margin of x = t, at some times and in between.
 template <class Margin>
@@ -30,7 +30,7 @@ std::function<ThinMargins(const std::vector<double>&)> marginsOfTime(const Margi
 }
 
 ThinQuestion asked(CellQuestion::When when, bool looksBetween) {
-  return {{when, {0}, {0}}, 0, 1, {0.0, 0.5, 1.0}, looksBetween, &goesOn};
+  return {{when, {0}, {0}}, 0, 1, {0.0, 0.5, 1.0}, looksBetween, &isRunning};
 }
 
 using enum CellQuestion::When;
@@ -76,7 +76,7 @@ TEST(Refutation, OfWhatIsToBeOnceIsOfTheWholeWindow) {
 
 TEST(Refutation, IsNotSoughtOnceCancelled) {
   ThinQuestion question = asked(always, true);
-  question.cancelled = &isCancelled;
+  question.cancelled = &isStopped;
   EXPECT_FALSE(refute(question, marginsOfTime([](const auto& x) { return 0 * x - 1; })));
 }
 
