@@ -25,7 +25,7 @@ struct ThinMargins {
 struct ThinQuestion {
   CellQuestion question;
   double from = 0, until = 0;                    ///< s: the window
-  std::vector<double> times = {};                ///< s: the output times
+  std::vector<double> times = {};                ///< s: the output times, one at least
   bool looksBetween = false;                     ///< also at others
   const std::atomic<bool>* cancelled = nullptr;  ///< null: never
 };
