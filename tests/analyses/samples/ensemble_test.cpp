@@ -267,7 +267,7 @@ TEST(Witness, TighterTolerancesComeCloserToTheSolution) {
     for (std::size_t t = 0; t < 31; ++t)
       error = std::max(error, std::abs(y[2 * t] - std::cos(0.2 * static_cast<double>(t))));
     EXPECT_LT(error, 0.2 * before);
-    EXPECT_LT(error, 300 * relative);  // between the solver's own steps too
+    EXPECT_LT(error, 200 * relative);  // between the solver's own steps too
     before = error;
   }
 }
@@ -277,8 +277,8 @@ TEST(Ensemble, TheMeasuredWitnessErrorIsTheActualOne) {
   double measured = 0;
   for (double error : e.error.data) measured = std::max(measured, error);
   const double actual = oscillatorError(e);
-  EXPECT_GT(measured, 0.1 * actual);
-  EXPECT_LT(measured, 1.5 * actual);
+  EXPECT_GT(measured, 0.5 * actual);   // of some samples, which need not be the worst
+  EXPECT_LT(measured, 1.01 * actual);  // against integrations of a hundredth of the error
 }
 
 TEST(Ensemble, TheEnvelopeOfAMonotoneMotionHasItsEndsAtTheCorners) {

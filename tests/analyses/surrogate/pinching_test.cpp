@@ -59,7 +59,7 @@ TEST_F(Pinching, HoldsAwayFromTheMiddleToo) {
       const double all = x(1.1, 0.5, 2) - x(1, 0.6, 2);
       expectNear(shares[0], 1 - (x(a, 0.5, 2) - x(a, 0.6, 2)) / all, all);
       expectNear(shares[2], 1 - (x(1.1, b, 2) - x(1, b, 2)) / all, all);
-      EXPECT_NEAR(shares[1], 0, 0.01);
+      EXPECT_NEAR(shares[1], 0, 1e-9);
     }
 }
 
