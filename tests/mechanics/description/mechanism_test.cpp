@@ -6,12 +6,12 @@
 
 #include <algorithm>
 
-#include "machines.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/description/names.hpp"
 #include "mechanics/model.hpp"
 #include "mechanics/rotation.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "tests/mechanics/machines.hpp"
 
 namespace gamut {
 namespace {

@@ -1,11 +1,11 @@
 // A sphere that touches a plane: forces against formulas written by hand, balances, and motions that are known.
 #include <gmock/gmock.h>
 
-#include "machines.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/program/linear_form.hpp"
+#include "tests/mechanics/machines.hpp"
 
 namespace gamut {
 namespace {
