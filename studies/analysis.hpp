@@ -61,7 +61,7 @@ using AnalysisType = std::unique_ptr<FurtherAnalysis> (*)();
 /// All of studies/analyses/: listed by CMake.
 std::vector<AnalysisType> analysisTypes();
 
-/// One of each, that nothing asks for yet.
+/// One of each, that nothing asks for yet. Throws std::invalid_argument where two have one section.
 std::vector<Boxed<FurtherAnalysis>> made(const std::vector<AnalysisType>& types);
 
 }  // namespace gamut

@@ -102,6 +102,12 @@ std::string refusalOf(const std::string& section, const std::string& old = "", c
   return "it was read";
 }
 
+TEST(OwnAnalysis, HasASectionOfItsOwn) {
+  std::vector<AnalysisType> twice = withOwnAnalysis();
+  twice.push_back(twice.back());
+  EXPECT_THROW(made(twice), std::invalid_argument);
+}
+
 TEST(OwnAnalysis, IsFoundOnlyWhereItIsAskedFor) {
   const Results without = run(studyOf(""));
   EXPECT_FALSE(without.of<CoreResult>().present);
