@@ -51,6 +51,17 @@ class Work {
   static double of(Kind kind, double number) { return unitsOf[kind] * number; }
   /// What other threads counted.
   static void add(std::uint64_t units) { clock_ += units; }
+  /// While one lives nothing is counted: what a thread makes for itself, of which there is more with more threads.
+  class Aside {
+   public:
+    Aside() = default;
+    ~Aside() { clock_ = before_; }
+    Aside(const Aside&) = delete;
+    Aside& operator=(const Aside&) = delete;
+
+   private:
+    const std::uint64_t before_ = clock_;
+  };
 #ifdef GAMUT_WORK_PROFILE
   static inline double numbers[kinds] = {};
 #endif

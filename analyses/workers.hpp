@@ -24,8 +24,8 @@ inline double threadCpuSeconds() {
 }
 
 /// Calls worker(i) for i = 0 … count-1, where `worker = makeWorker()` is made once on each of at most `jobs` threads.
-/// Ends early when `cancelled` is set. The first exception ends all and is thrown again here. What all threads counted
-/// as work, the calling one has counted in the end.
+/// Ends early when `cancelled` is set. The first exception ends all and is thrown again here. What all workers counted
+/// as work, the calling thread has counted in the end.
 template <class MakeWorker>
 void forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancelled, const MakeWorker& makeWorker) {
   std::atomic<std::size_t> next{0};
@@ -34,7 +34,10 @@ void forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancelle
   std::mutex mutex;
   const auto run = [&] {
     try {
-      auto worker = makeWorker();
+      auto worker = [&] {
+        const Work::Aside own;
+        return makeWorker();
+      }();
       for (std::size_t i = next++; i < count && !(cancelled != nullptr && *cancelled); i = next++) worker(i);
     } catch (...) {
       next = count;

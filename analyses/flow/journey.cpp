@@ -272,6 +272,7 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece, bool stops) {
 /// Null where these jumps do not decide about themselves.
 std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& piece,
                                                             const std::vector<char>& held) const {
+  const Work::Aside own;
   const FlowLayout& layout = task_.layouts[piece.layout];
   const FlowOptions& options = task_.options;
   Program motion = task_.differentiated, outputs = task_.outputs, besides = task_.options.aside.values;
@@ -318,6 +319,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
 /// Of outputs in the monomials of one layout, states in those of another.
 FlowFollower::OutputTools FlowFollower::outputToolsFor(const Program& g, std::size_t layout,
                                                        std::size_t ofStates) const {
+  const Work::Aside own;
   const std::shared_ptr<const Monomials>& monomials = task_.layouts[layout].monomials;
   const Monomials& states = *task_.layouts[ofStates].monomials;
   bool isPrefix = monomials->symbols() == states.symbols() && monomials->count() < states.count();
@@ -328,6 +330,7 @@ FlowFollower::OutputTools FlowFollower::outputToolsFor(const Program& g, std::si
 
 std::unique_ptr<FlowOutputChords> FlowFollower::chordsIn(const Program& g, std::size_t layout,
                                                          std::size_t ofStates) const {
+  const Work::Aside own;
   return std::make_unique<FlowOutputChords>(g, task_.layouts[layout].monomials, task_.layouts[ofStates].monomials,
                                             task_.order, task_.horizon, task_.quantum, task_.options.cancelled);
 }
@@ -531,6 +534,7 @@ MeanValueOutputs* FlowFollower::outputsWhileHeld(std::vector<char> held) {
   if (std::ranges::find(held, 1) == held.end()) held.clear();
   const auto [place, isNew] = outputTool_->whileHeld.try_emplace(held);
   if (!isNew) return place->second.get();
+  const Work::Aside own;
   try {
     place->second = std::make_unique<MeanValueOutputs>(task_.jumps.outputsGiven(task_.outputs, held));
   } catch (const std::logic_error&) {
@@ -623,10 +627,12 @@ std::shared_ptr<FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& piece,
 /// At the time of `point_`, where the states are in these boxes.
 void FlowFollower::lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states) {
   if (task_.looksAside[row] == 0) return;
-  if (!outputTool_->asides)
+  if (!outputTool_->asides) {
+    const Work::Aside own;
     outputTool_->asides =
         std::make_unique<FlowAsides>(outputTool_->besides, task_.layouts[task_.outputLayout(piece.layout)].monomials,
                                      task_.layouts[piece.layout].monomials, task_.varying, task_.options.cancelled);
+  }
   joinHulls(collected_.asides[row], outputTool_->asides->enclose(task_.times[row], point_, states, parameters_));
 }
 
