@@ -137,6 +137,10 @@ class RequirementReader {
     for (std::size_t i = 0; i < signs.size(); ++i) {
       const Side &left = sides[i], &right = sides[i + 1], &lesser = signs[i].isGreater ? right : left;
       const bool isMagnitude = signs.size() == 1 && lesser.magnitudeOf;
+      if (left.expression.isConstant() && right.expression.isConstant())
+        source_.fail(node, fmt::format("'{}' compares numbers with each other, whatever the motion", text),
+                     comparisonExpected);
+      if (isMagnitude) refuseNegative(node, text, signs[i].isGreater ? left : right, signs[i].isStrict);
       // What stands in the middle is compared with both ends; of two sides, a magnitude, what is no number, or the
       // first.
       const bool isLeft = signs.size() == 2 ? i == 1 : isMagnitude ? &lesser == &left : !left.expression.isConstant();
@@ -174,6 +178,8 @@ class RequirementReader {
     side.text = trim(text.substr(begin, end - begin));
     if (side.text.empty())
       source_.fail(node, fmt::format("'{}' has nothing on one side of a comparison", text), comparisonExpected);
+    if (outputNamed("pi") != nullptr && namesPi(side.text))
+      source_.fail(node, "'pi' is a number as well as an output", "the output in single quotes, 'pi', or another name");
     try {
       side.expression = Expression::parse(alone, [this](std::string_view word) {
         const std::string name(word);
@@ -182,6 +188,7 @@ class RequirementReader {
       for (const std::string& name : side.expression.names()) {
         if (name != "t" && outputNamed(name) == nullptr && !isQuantity(name))
           source_.fail(node, fmt::format("unknown quantity '{}'", name), quantityExpected(name, namesForMessages()));
+        refuseTwoMeanings(node, name);
         if (const WantedOutput* output = outputThatIs(name); output != nullptr && side.unitOfOutput.empty())
           side.unitOfOutput = output->unit;
       }
@@ -204,6 +211,19 @@ class RequirementReader {
       side.isPlainNumber = !amount->hasUnit && !amount->isRelative;
     }
     return side;
+  }
+
+  /// As a word of its own outside of quotes.
+  static bool namesPi(const std::string& text) {
+    const auto isOfWord = [&](std::size_t i) {
+      return i < text.size() &&
+             (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_' || text[i] == '.');
+    };
+    for (std::size_t i = text.find("pi"); i != std::string::npos; i = text.find("pi", i + 1))
+      if (std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\'') % 2 == 0 &&
+          (i == 0 || !isOfWord(i - 1)) && !isOfWord(i + 2))
+        return true;
+    return false;
   }
 
   /// In which a margin is told, where it is one of them: the unit of the output that is compared, one that is not of SI
@@ -249,6 +269,13 @@ class RequirementReader {
                    fmt::format("the {} limit first", isGreater ? "greater" : "lesser"));
   }
 
+  void refuseNegative(const toml::node& node, const std::string& text, const Side& limit, bool isStrict) const {
+    const std::optional<Amount> amount = limit.expression.amount();
+    if (!amount) return;
+    if (const double most = nearest(*amount); most < 0 || (most == 0 && isStrict))
+      source_.fail(node, fmt::format("'{}' is met by nothing: no magnitude is below 0", text), "a limit above 0");
+  }
+
   void addMargins(const toml::node& node, const Requirement& requirement) {
     const auto found = std::ranges::find_if(units_, [&](const std::string& unit) {
       return gamut::dimensionOf(unit) == dimension_ || isAlikeButForRadians(gamut::dimensionOf(unit), dimension_);
@@ -286,6 +313,17 @@ class RequirementReader {
     if (isQuantity(name)) return nullptr;
     const auto found = std::ranges::find(outputs_, name, &WantedOutput::name);
     return found == outputs_.end() ? nullptr : &*found;
+  }
+
+  /// An output may have the name of the quantity that it is, and of no other.
+  void refuseTwoMeanings(const toml::node& node, const std::string& name) const {
+    if (name != "t" && !isQuantity(name)) return;
+    const auto found = std::ranges::find(outputs_, name, &WantedOutput::name);
+    if (found != outputs_.end() && found->quantity != name)
+      source_.fail(
+          node,
+          fmt::format("'{}' is a quantity as well as an output, which is another one, '{}'", name, found->quantity),
+          "another name for the output");
   }
 
   /// The same, or the first that is the quantity of this name.

@@ -141,6 +141,20 @@ TEST(Requirements, ThatMakeNoSenseAreRefusedInOneLine) {
                 says("' is met by nothing: its limits leave nothing between them; expected the lesser limit first"));
   EXPECT_THAT(refusal("always = \"0.2 m > tip.position.z > 0.3 m\""), says("expected the greater limit first"));
   EXPECT_NO_THROW(refusal("always = \"0.2 m <= tip.position.z <= 0.2 m\"")());
+  for (const char* numbers : {"3 < 2", "5 > 3 rad", "angle > 5 deg > 3 deg", "2 rad < 3"})
+    EXPECT_THAT(refusal("always = \"" + std::string(numbers) + "\""), says("' compares numbers with each other"));
+  for (const char* magnitude : {"abs(angle) < -1 rad", "abs(angle) < 0", "-3 > abs(angle)"})
+    EXPECT_THAT(refusal("always = \"" + std::string(magnitude) + "\""),
+                says("' is met by nothing: no magnitude is below 0; expected a limit above 0"));
+  for (const char* name : {"hinge.angle", "t"}) {
+    const std::string other = "[[output]]\nname = \"" + std::string(name) + "\"\nquantity = \"2*hinge.angle\"";
+    EXPECT_THAT(
+        refusal("always = \"" + std::string(name) + " < 1\"\n\n" + other),
+        says("' is a quantity as well as an output, which is another one, '2*hinge.angle'; expected another name"));
+  }
+  const std::string named = "\n\n[[output]]\nname = \"pi\"\nquantity = \"hinge.angle\"";
+  EXPECT_THAT(refusal("always = \"2*pi < 1\"" + named), says("'pi' is a number as well as an output; expected the"));
+  EXPECT_NO_THROW(refusal("always = \"'pi' < 1\"" + named)());
   EXPECT_THAT(refusal("always = \"angel > 0\""), says("unknown quantity 'angel'; expected"));
   EXPECT_THAT(refusal("always = \"tip.position.z > 2 s\""), says("s.toml:"));
   EXPECT_THAT(refusal("always = \"angle > 0\"\nfrom = 0.6"),
