@@ -103,7 +103,8 @@ std::string excessText(const Excess& e, bool moves) {
                    : "ends before it has anything";
     case Of::requirement:
     case Of::verdict:
-      return fmt::format("{} in A, {} in B", wordText(e.words.first), wordText(e.words.second));
+      return fmt::format("{} in A, {} in B", wordText(e.words.first),
+                         e.words.second.empty() ? "none" : wordText(e.words.second));
     case Of::cpu:
       break;
   }

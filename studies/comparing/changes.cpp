@@ -152,9 +152,10 @@ Changes changesOf(const Results& first, const Results& second, const Shared& sha
     changes.requirements.push_back(std::move(change));
   }
   const Agreement before = findVerdict(first).word, now = findVerdict(second).word;
-  if (first.comparison.present) changes.verdict.first = wordOf(before);
-  if (second.comparison.present) changes.verdict.second = wordOf(now);
-  changes.isVerdictWorse = first.comparison.present && second.comparison.present && isWorse(before, now);
+  const bool hadVerdict = first.comparison.present, hasVerdict = second.comparison.present;
+  if (hadVerdict) changes.verdict.first = wordOf(before);
+  if (hasVerdict) changes.verdict.second = wordOf(now);
+  changes.isVerdictWorse = hadVerdict && (hasVerdict ? isWorse(before, now) : isSameQuestion);
   if (first.distribution.present && second.distribution.present)
     changes.gap = {first.distribution.gap, second.distribution.gap};
   changes.samples = {first.stochastic.integrated, second.stochastic.integrated};

@@ -59,7 +59,8 @@ struct Changes {
   Both<double> cpu, memory;                                    ///< s, bytes
 };
 
-/// `isSameQuestion`: then an answer that is not known any more is a loss too where it was "violated".
+/// `isSameQuestion`: then an answer that is not known any more is a loss too where it was "violated", and so is a
+/// verdict that is none any more.
 Changes changesOf(const Results& first, const Results& second, const Shared& shared, bool isSameQuestion);
 
 }  // namespace gamut

@@ -50,6 +50,15 @@ TEST_F(CompareCommand, SaysWhatBecameWiderAndWhatIsTolerated) {
   EXPECT_EQ(gamut("compare a.h5 b.h5 --tolerances t.toml").exitCode, 0);
 }
 
+TEST_F(CompareCommand, FindsALostVerdictWorse) {
+  run("a", sampleStudy);
+  run("b", sampleStudyWith("\"interval\", \"stochastic\", \"fuzzy\"", "\"stochastic\""));
+  const Outcome lost = gamut("compare a.h5 b.h5");
+  EXPECT_EQ(lost.exitCode, 1);
+  EXPECT_THAT(lost.out, HasSubstr("  worse: verdict: inside in A, none in B\n"));
+  EXPECT_EQ(gamut("compare b.h5 a.h5").exitCode, 0);
+}
+
 TEST_F(CompareCommand, TellsAProofOfAnErrorFromModelsThatDiffer) {
   run("a", sampleStudy);
   Results results = readResults(folder_.path("a.h5"));
