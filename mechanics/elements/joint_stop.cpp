@@ -25,8 +25,14 @@ void JointStop::assemble(Assembler<S>& a) const {
 }
 
 std::vector<Fault> JointStop::faults(const RangeOf& rangeOf) const {
-  if (rangeOf(lower).upper() < rangeOf(upper).lower()) return {};
-  return {{"upper", "the upper stop of '" + name + "' is not above the lower one", "a place above `lower`"}};
+  std::vector<Fault> found;
+  if (!(rangeOf(lower).upper() < rangeOf(upper).lower()))
+    found.push_back({"upper", "the upper stop of '" + name + "' is not above the lower one", "a place above `lower`"});
+  if (rangeOf(stiffness).lower() < 0)
+    found.push_back({"stiffness", "the stiffness of '" + name + "' is negative", "at least 0: stops push back"});
+  if (rangeOf(damping).lower() < 0)
+    found.push_back({"damping", "the damping of '" + name + "' is negative", "at least 0"});
+  return found;
 }
 
 GAMUT_ASSEMBLE(JointStop)

@@ -69,6 +69,12 @@ TEST(JointStop, PushesBackFromBothEnds) {
   Mechanism wrong = disc();
   wrong.add(JointStop{"stop", "hinge", 0.5, 0.5, 100.0});
   EXPECT_THROW(wrong.check(), std::invalid_argument);
+  for (const JointStop& outwards :
+       {JointStop{"stop", "hinge", -0.5, 0.5, -100.0}, JointStop{"stop", "hinge", -0.5, 0.5, 100.0, -1.0}}) {
+    Mechanism pushed = disc();
+    pushed.add(outwards);
+    EXPECT_THROW(pushed.check(), std::invalid_argument);
+  }
 }
 
 /// (I + J n²) q̈ = n (τ − d n q̇).
