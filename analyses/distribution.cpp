@@ -46,9 +46,10 @@ void requireShape(bool good, const std::string& what) {
 
 std::string shownNumber(const Interval& value) { return isThin(value) ? toString(value.lower()) : toString(value); }
 
-void requirePositive(const Interval& value, const char* what) {
-  requireShape(value.lower() > 0 && isBounded(value),
-               std::string(what) + " must be positive, not " + shownNumber(value));
+void requirePositive(const char* key, const Interval& value, const char* what) {
+  if (!(value.lower() > 0 && isBounded(value)))
+    throw ShapeRefusal(key, std::nullopt, std::string(what) + " must be positive, not " + shownNumber(value),
+                       "a number above 0");
 }
 
 void requireNotNegative(const Interval& support, const char* what) {

@@ -132,7 +132,9 @@ Interval rising(const F& f, const Interval& x) {
 
 /// Throws std::invalid_argument.
 void requireShape(bool good, const std::string& what);
-void requirePositive(const Interval& value, const char* what);
+/// Throws ShapeRefusal, of what is stated by `key`.
+void requirePositive(const char* key, const Interval& value, const char* what);
+/// Throws std::invalid_argument.
 void requireNotNegative(const Interval& support, const char* what);
 /// Of a parameter: "2", or "[1, 2]".
 std::string shownNumber(const Interval& value);

@@ -109,7 +109,7 @@ void describeInterval(Settings& s, Study& study) {
            {.least = 0,
             .most = 1,
             .isAbove = true,
-            .fault = "is not positive, or above 1",
+            .fault = "is not above 0 and at most 1",
             .expected = "a small number above 0"},
            flow.tolerance);
   s.whole({"order", "of the series in time (4 to 30); `\"auto\"` or a number", "by the tolerance, 7 to 20", true}, 4,

@@ -60,8 +60,8 @@ class BetaLaw final : public Family {
  protected:
   std::unique_ptr<Family> copy() const override { return std::make_unique<BetaLaw>(*this); }
   void check() const override {
-    requirePositive(a, "the first parameter of a beta distribution");
-    requirePositive(b, "the second parameter of a beta distribution");
+    requirePositive("a", a, "the first parameter of a beta distribution");
+    requirePositive("b", b, "the second parameter of a beta distribution");
   }
   void prepare() override { logBeta_ = logGamma(a) + logGamma(b) - logGamma(a + b); }
   Interval enclosed(const Interval& v) const override {

@@ -25,7 +25,7 @@ class ExponentialLaw final : public Truncated {
  protected:
   std::unique_ptr<Family> copy() const override { return std::make_unique<ExponentialLaw>(*this); }
   void check() const override {
-    requirePositive(mean, "the mean of an exponential distribution");
+    requirePositive("mean", mean, "the mean of an exponential distribution");
     requireNotNegative(on, "an exponential");
   }
   Interval enclosedAll(const Interval& value) const override {

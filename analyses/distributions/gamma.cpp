@@ -37,8 +37,8 @@ class GammaLaw final : public Truncated {
  protected:
   std::unique_ptr<Family> copy() const override { return std::make_unique<GammaLaw>(*this); }
   void check() const override {
-    requirePositive(shape, "the shape of a gamma distribution");
-    requirePositive(scale, "the scale of a gamma distribution");
+    requirePositive("shape", shape, "the shape of a gamma distribution");
+    requirePositive("scale", scale, "the scale of a gamma distribution");
     requireNotNegative(on, "a gamma");
   }
   void prepare() override {

@@ -27,7 +27,7 @@ class LognormalLaw final : public Truncated {
   std::unique_ptr<Family> copy() const override { return std::make_unique<LognormalLaw>(*this); }
   void check() const override {
     requireShape(isBounded(mean), "the logarithmic mean of a lognormal distribution must be finite");
-    requirePositive(deviation, "the logarithmic deviation of a lognormal distribution");
+    requirePositive("log_deviation", deviation, "the logarithmic deviation of a lognormal distribution");
     requireNotNegative(on, "a lognormal");
   }
   Interval enclosedAll(const Interval& value) const override {

@@ -22,7 +22,7 @@ class NormalLaw final : public Truncated {
   std::unique_ptr<Family> copy() const override { return std::make_unique<NormalLaw>(*this); }
   void check() const override {
     requireShape(isBounded(mean), "the mean of a normal distribution must be finite");
-    requirePositive(deviation, "the deviation of a normal distribution");
+    requirePositive("deviation", deviation, "the deviation of a normal distribution");
   }
   Interval enclosedAll(const Interval& value) const override { return normalBelow((value - mean) / deviation); }
   /// At its mean.

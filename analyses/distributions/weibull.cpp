@@ -29,8 +29,8 @@ class WeibullLaw final : public Truncated {
  protected:
   std::unique_ptr<Family> copy() const override { return std::make_unique<WeibullLaw>(*this); }
   void check() const override {
-    requirePositive(shape, "the shape of a Weibull distribution");
-    requirePositive(scale, "the scale of a Weibull distribution");
+    requirePositive("shape", shape, "the shape of a Weibull distribution");
+    requirePositive("scale", scale, "the scale of a Weibull distribution");
     requireNotNegative(on, "a Weibull");
   }
   Interval enclosedAll(const Interval& value) const override {

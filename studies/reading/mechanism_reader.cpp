@@ -462,8 +462,9 @@ class MechanismReader {
     std::string named(const Word& word) const { return section_.text("name") + "." + word.key; }
     static const toml::node* given(const TomlSection& section, const Word& word) {
       if (!word.isRequired) return section.find(word.key);
-      const std::string unit = word.unit.empty() ? "" : fmt::format(", in {}", word.unit);
-      return &section.require(word.key, (word.meaning.empty() ? "a number" : word.meaning) + unit);
+      const std::string unit = word.unit.empty() || word.unit == "1" ? "" : fmt::format(" in {}", word.unit);
+      return &section.require(word.key,
+                              word.key + unit + (word.meaning.empty() ? "" : fmt::format(": {}", word.meaning)));
     }
 
     MechanismReader& reader_;

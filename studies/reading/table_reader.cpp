@@ -170,7 +170,8 @@ class TableReader {
       fail(cell, fmt::format("'{}' is no unit", printable(stated)), "a unit such as " + unit);
     }
     if (!(one.dimension == dimensionOf(unit)))
-      fail(cell, fmt::format("the column is in {}", printable(stated)), "a column in " + unit);
+      fail(cell, fmt::format("the column is in {}", printable(stated)),
+           unit == "1" ? "a column without a unit" : "a column in " + unit);
     return one;
   }
 

@@ -1036,7 +1036,7 @@ constexpr BadStudy badStudies[] = {
     {"mass = \"250 g\"", "mass = [1]",
      "s.toml:27:8: mechanism.element.mass is a list; expected a number, or text with a unit such as \"135 deg\""},
     {"mass = \"250 g\"", "",
-     "s.toml:23:1: 'mechanism.element.mass' is missing; expected the mass, not negative, in kg"},
+     "s.toml:23:1: 'mechanism.element.mass' is missing; expected mass in kg: the mass, not negative"},
     {"mass = \"250 g\"", "mass = 1\ninertia = [1, 2]",
      "s.toml:28:11: mechanism.element.inertia has 2 numbers; expected [xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in kg "
      "m^2"},
@@ -1174,8 +1174,7 @@ constexpr BadStudy badStudies[] = {
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = [2, 1] }",
      "s.toml:32:47: uncertain.distribution.deviation has its lower bound above its upper one; expected [lower, upper]"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = [0, 1] }",
-     "s.toml:32:16: the deviation of a normal distribution must be positive, not [0, 1]; expected a distribution "
-     "inside the interval"},
+     "s.toml:32:47: the deviation of a normal distribution must be positive, not [0, 1]; expected a number above 0"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"evidence\" }",
      "s.toml:32:16: 'uncertain.distribution.intervals' is missing; expected [[lower, upper], ...], or a file"},
     {"distribution = { type = \"uniform\" }",
@@ -1198,8 +1197,7 @@ constexpr BadStudy badStudies[] = {
      "membership = { type = \"triangular\" }\n[[dependence]]\nquantities = [\"start\", \"start\"]\nunknown = true",
      "s.toml:35:24: 'start' is in a dependence already; expected every quantity once"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = -1 }",
-     "s.toml:32:16: the deviation of a normal distribution must be positive, not -1; expected a distribution "
-     "inside the interval"},
+     "s.toml:32:47: the deviation of a normal distribution must be positive, not -1; expected a number above 0"},
     {"membership = { type = \"triangular\" }", "membership = { type = \"triangular\", apex = 3 }",
      "s.toml:33:44: uncertain.membership.apex 3 leaves the support; expected values inside [0.518363, 0.528835]"},
     {"membership = { type = \"triangular\" }", "membership = { type = \"triangular\", support = [0.524, 0.525] }",
