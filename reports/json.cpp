@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,18 +61,6 @@ Json valueOf(const FieldValue& value) {
                     value);
 }
 
-/// The numbers of a field, one after the other, and what its keys end in.
-std::vector<std::pair<std::vector<double>, std::string>> numbersOf(const Field& field) {
-  if (const auto* values = std::get_if<std::vector<double>*>(&field.value)) return {{**values, ""}};
-  if (const auto* table = std::get_if<Table*>(&field.value)) return {{(*table)->data, ""}};
-  if (const auto* bounds = std::get_if<Envelope*>(&field.value))
-    return {{(*bounds)->lower.data, "/0"}, {(*bounds)->upper.data, "/1"}};
-  std::vector<double> all;
-  if (const auto* tables = std::get_if<std::vector<Table>*>(&field.value))
-    for (const Table& table : **tables) all.insert(all.end(), table.data.begin(), table.data.end());
-  return {{all, ""}};
-}
-
 /// The keys to a field, by its name or that which both ends of bounds have; empty of what is told nowhere.
 std::string keysOf(const Group& group, const Field& field) {
   std::string_view name = field.name == "lower" ? "bounds_lower" : field.name == "upper" ? "bounds_upper" : field.name;
@@ -103,8 +92,8 @@ class Teller {
       : results_(results), groups_(describe(results)), extents_(extentsOf(groups_)) {
     for (const Group& group : groups_)
       for (const Field& field : group.isList() || group.size == 0 ? std::vector<Field>() : group.fields(0))
-        if (const auto* scale = std::get_if<std::vector<double>*>(&field.value); scale && isScale(group, field))
-          scales_[pathOf(group, field)] = *scale;
+        if (const auto* scale = std::get_if<Numbers>(&field.value); scale && isScale(group, field))
+          scales_[pathOf(group, field)] = scale->lists().front();
   }
 
   /// All that is single, and numbers of outputs: by time where it is said which are told, otherwise at the last one.
@@ -145,8 +134,12 @@ class Teller {
     if (dimensions.empty()) placeOf(object, keys) = valueOf(field.value);
     const std::vector<std::size_t> shape = shapeOf(dimensions, extents_);
     const std::size_t count = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
-    for (const auto& [numbers, end] : numbersOf(field))
-      for (std::size_t i = 0; i < count && !shape.empty(); ++i) {
+    const auto* numbers = std::get_if<Numbers>(&field.value);
+    std::vector<double> room;
+    for (std::size_t end = 0; numbers != nullptr && end < numbers->ends().size(); ++end) {
+      const std::span<const double> all = numbers->all(end, room);
+      const std::string last = numbers->ends().size() == 1 ? "" : end == 0 ? "/0" : "/1";
+      for (std::size_t i = 0; i < count; ++i) {
         std::size_t rest = i, at = 0, output = 0;
         const std::string* quantity = nullptr;
         const double *time = nullptr, *other = nullptr;
@@ -169,8 +162,9 @@ class Teller {
         Json* place = isOfOutput ? &outputs[results_.outputs[output].name] : &object;
         if (isTold && time != nullptr) place = &(*place)[fmt::format("{}", *time)];
         const std::string label = quantity != nullptr ? *quantity : other != nullptr ? fmt::format("{}", *other) : "";
-        placeOf(*place, keys + end, label) = i < numbers.size() ? number(numbers[i]) : Json(nullptr);
+        placeOf(*place, keys + last, label) = i < all.size() ? number(all[i]) : Json(nullptr);
       }
+    }
   }
 
   const Results& results_;
@@ -197,11 +191,11 @@ Json requirementsArray(const Results& results, const Teller& teller) {
 }
 
 /// Proved bounds of the value below which an output lies with probability p; null where an end is not known.
-Json quantileOf(const DistributionResult& d, std::size_t begin, double p) {
+Json quantileOf(const DistributionResult& d, std::size_t at, std::size_t output, double p) {
   Json bounds = Json::array({nullptr, nullptr});
-  for (std::size_t i = begin; i < begin + d.point.size() && !std::isnan(d.value[i]); ++i) {
-    if (d.upper[i] < p) bounds[0] = d.value[i];
-    if (d.lower[i] >= p && bounds[1].is_null()) bounds[1] = d.value[i];
+  for (std::size_t i = 0; const double value : d.values(at, output)) {
+    if (d.upper(at, output, i) < p) bounds[0] = value;
+    if (d.lower(at, output, i++) >= p && bounds[1].is_null()) bounds[1] = value;
   }
   return bounds;
 }
@@ -209,17 +203,14 @@ Json quantileOf(const DistributionResult& d, std::size_t begin, double p) {
 Json distributionObject(const Results& results, const Teller& teller) {
   const DistributionResult& d = results.distribution;
   if (!d.present) return nullptr;
-  const std::size_t outputs = results.outputs.size();
-  const auto isKnown = [&](std::size_t at, std::size_t k) {
-    return !d.gaps.empty() && !std::isnan(d.gaps[at * outputs + k]);
-  };
+  const auto isKnown = [&](std::size_t at, std::size_t k) { return !d.gaps.empty() && !std::isnan(d.gaps(at, k)); };
   Json object = teller.record("/distribution", isKnown);
   for (std::size_t at = 0; at < d.time.size(); ++at)
-    for (std::size_t k = 0; k < outputs; ++k)
+    for (std::size_t k = 0; k < results.outputs.size(); ++k)
       for (const double p : {0.01, 0.05, 0.5, 0.95, 0.99})
         if (isKnown(at, k))
           object["outputs"][results.outputs[k].name][fmt::format("{}", d.time[at])]["quantiles"][fmt::format("{}", p)] =
-              quantileOf(d, d.begin(at, k, outputs), p);
+              quantileOf(d, at, k, p);
   if (!(d.band > 0)) object["band"] = nullptr;
   return object;
 }
@@ -252,8 +243,7 @@ Json sensitivityObject(const Results& results, const Teller& teller) {
   if (!s.present) return nullptr;
   const std::vector<double>& times = results.distribution.time;
   Json outputs = std::move(teller.record("/sensitivity", [&](std::size_t at, std::size_t k) {
-    return std::ranges::find(times, s.time[at]) != times.end() &&
-           !(std::isnan(s.meanLower[at * results.outputs.size() + k]) && s.why.empty());
+    return std::ranges::find(times, s.time[at]) != times.end() && !(std::isnan(s.mean.lower(at, k)) && s.why.empty());
   })["outputs"]);
   for (Json& ofOutput : outputs)
     for (Json& of : ofOutput) {
@@ -270,7 +260,7 @@ Json transformationObject(const Results& results, const Teller& teller) {
   const TransformationResult& t = results.fuzzy.transformation;
   if (!t.present) return nullptr;
   Json object = teller.record("/fuzzy/transformation", [&](std::size_t level, std::size_t k) {
-    return !t.gap.empty() && !std::isnan(t.gap[level * results.outputs.size() + k]);
+    return !t.gap.empty() && !std::isnan(t.gap(level, k));
   });
   object["gaps"] = std::move(object["outputs"]);
   object.erase("outputs");

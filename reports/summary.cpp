@@ -38,18 +38,19 @@ std::string statisticsText(const Results& results) {
 std::string transformationText(const Results& results) {
   const TransformationResult& t = results.fuzzy.transformation;
   if (!t.present) return {};
-  std::size_t worst = t.gap.size();
-  for (std::size_t i = 0; i < t.gap.size(); ++i)
-    if (!std::isnan(t.gap[i]) && (worst == t.gap.size() || t.gap[i] > t.gap[worst])) worst = i;
+  std::size_t worst = t.gap.data.size();
+  for (std::size_t i = 0; i < t.gap.data.size(); ++i)
+    if (!std::isnan(t.gap.data[i]) && (worst == t.gap.data.size() || t.gap.data[i] > t.gap.data[worst])) worst = i;
   std::string text = fmt::format(
       "  alpha-cuts: samples by the {} transformation method{}", t.method,
       results.stochastic.alphaPoints > 0 ? ", " + countText(results.stochastic.alphaPoints, "point") + " inside" : "");
-  if (worst == t.gap.size()) return text + "\n";
+  if (worst == t.gap.data.size()) return text + "\n";
   const std::size_t outputs = results.outputs.size();
-  if (isLittle(t.gap[worst], 1)) return text + "; they reach the ends of every proved cut\n";
-  const std::string when = results.horizon > 0 ? fmt::format(", at {}", timeText(t.gapTime[worst])) : std::string();
+  if (isLittle(t.gap.data[worst], 1)) return text + "; they reach the ends of every proved cut\n";
+  const std::string when =
+      results.horizon > 0 ? fmt::format(", at {}", timeText(t.gapTime.data[worst])) : std::string();
   return text + fmt::format("; they leave {} % of the widest proved cut at most ({}, membership {}{})\n",
-                            atMostText(100 * t.gap[worst], 2), results.outputs[worst % outputs].name,
+                            atMostText(100 * t.gap.data[worst], 2), results.outputs[worst % outputs].name,
                             numberText(results.fuzzy.alpha[worst / outputs], 3), when);
 }
 
@@ -112,11 +113,9 @@ std::string contentOf(const Field& field, const Extents& extents) {
                             [](std::uint64_t* x) { return fmt::format("{}", *x); }, [](std::string* x) { return *x; },
                             [](Choice x) { return x.word(); },
                             [](WholeText x) { return countText(static_cast<long long>(x.text->size()), "byte"); },
-                            [&](auto* values) {
-                              if constexpr (requires { values->empty(); })
-                                return values->empty() ? std::string() : shape;
-                              return std::string();
-                            }},
+                            [](bool*) { return std::string(); },
+                            [&](std::vector<std::int64_t>* v) { return v->empty() ? std::string() : shape; },
+                            [&](const Numbers& n) { return n.empty() ? std::string() : shape; }},
                     field.value);
 }
 
@@ -154,10 +153,10 @@ std::string widestGapText(const Results& results) {
   std::vector<double> gaps;
   std::size_t widest = 0;
   double greatest = 0;
-  for (std::size_t i = 0; i < d.gaps.size(); ++i) {
-    if (isMargin(results, i % outputs) || !(d.gaps[i] < 1)) continue;
-    gaps.push_back(d.gaps[i]);
-    if (d.gaps[i] > greatest) widest = i, greatest = d.gaps[i];
+  for (std::size_t i = 0; i < d.gaps.data.size(); ++i) {
+    if (isMargin(results, i % outputs) || !(d.gaps.data[i] < 1)) continue;
+    gaps.push_back(d.gaps.data[i]);
+    if (d.gaps.data[i] > greatest) widest = i, greatest = d.gaps.data[i];
   }
   if (gaps.size() < 2) return {};
   const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>((gaps.size() - 1) / 2);
@@ -173,11 +172,11 @@ std::string probabilitiesText(const Results& results) {
   const std::size_t outputs = results.outputs.size();
   long long known = 0, unknown = 0;
   double gap = 0;
-  for (std::size_t i = 0; i < d.gaps.size(); ++i) {
+  for (std::size_t i = 0; i < d.gaps.data.size(); ++i) {
     if (isMargin(results, i % outputs)) continue;
-    if (d.gaps[i] < 1)
-      ++known, gap = std::max(gap, d.gaps[i]);
-    else if (!std::isnan(d.gaps[i]) || !isOneValue(results, d.time[i / outputs], i % outputs))
+    if (d.gaps.data[i] < 1)
+      ++known, gap = std::max(gap, d.gaps.data[i]);
+    else if (!std::isnan(d.gaps.data[i]) || !isOneValue(results, d.time[i / outputs], i % outputs))
       ++unknown;
   }
   const std::string& why = d.stopped.empty() ? d.why : d.stopped;

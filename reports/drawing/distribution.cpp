@@ -18,16 +18,15 @@ constexpr std::size_t drawnValues = 100;
 
 Stairs stairsOf(const Results& results, std::size_t at, std::size_t output) {
   const DistributionResult& d = results.distribution;
-  const std::size_t begin = d.begin(at, output, results.outputs.size());
-  std::size_t count = 0;
-  while (count < d.point.size() && !std::isnan(d.value[begin + count])) ++count;
+  const std::span<const double> values = d.values(at, output);
+  const std::size_t count = values.size();
   Stairs stairs;
   const std::size_t stride = std::max<std::size_t>(1, count / drawnValues);
   for (std::size_t i = 0; i < count; i = i + stride < count || i + 1 == count ? i + stride : count - 1) {
-    stairs.value.push_back(d.value[begin + i]);
-    stairs.lower.push_back(d.lower[begin + i]);
-    stairs.upper.push_back(d.upper[begin + i]);
-    stairs.sampled.push_back(d.sampled[begin + i]);
+    stairs.value.push_back(values[i]);
+    stairs.lower.push_back(d.lower(at, output, i));
+    stairs.upper.push_back(d.upper(at, output, i));
+    stairs.sampled.push_back(d.sampled(at, output, i));
   }
   return stairs;
 }

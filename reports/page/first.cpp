@@ -233,15 +233,14 @@ std::vector<LeadingCause> causesOf(const Results& results, std::size_t output, s
   const std::size_t quantities = results.uncertain.size();
   std::vector<LeadingCause> causes;
   for (std::size_t q = 0; q < quantities; ++q) {
-    const std::size_t i = (at * results.outputs.size() + output) * quantities + q;
-    const double low = s.totalLower[i], high = s.totalUpper[i];
+    const double low = s.total.lower(at, output, q), high = s.total.upper(at, output, q);
     constexpr double tight = 0.02, telling = 0.2;
     LeadingCause cause{results.uncertain[q].name, "", 0.5 * (low + high)};
     const auto percent = [](double x) { return fmt::format("{:.0f}", 100 * std::clamp(x, 0.0, 1.0)); };
     if (high - low <= tight) {
       cause.share = percent(cause.size) + " %";
-    } else if (i < s.totalSampled.size() && std::isfinite(s.totalSampled[i])) {
-      cause.size = s.totalSampled[i];
+    } else if (!s.totalSampled.empty() && std::isfinite(s.totalSampled(at, output, q))) {
+      cause.size = s.totalSampled(at, output, q);
       cause.share = "about " + percent(cause.size) + " %";
     } else if (high - low <= telling) {
       cause.share = fmt::format("{} to {} %", percent(low), percent(high));
@@ -256,7 +255,7 @@ std::vector<LeadingCause> causesOf(const Results& results, std::size_t output, s
 
 std::string ranking(const Results& results, std::size_t output) {
   const SensitivityResult& s = results.sensitivity;
-  if (!s.present || results.uncertain.size() < 2 || s.totalLower.empty()) return {};
+  if (!s.present || results.uncertain.size() < 2 || s.total.lower.empty()) return {};
   const double instant = instantOf(results, output);
   std::vector<LeadingCause> causes;
   std::size_t at = 0;

@@ -63,7 +63,7 @@ std::string methodText(const Results& results) {
                                  countText(results.stochastic.corners + results.stochastic.alphaCorners, "corner"),
                                  points > 0 ? " and " + countText(points, "point") + " inside the cuts" : "");
   double gap = -1;
-  for (const double each : t.gap) gap = std::fmax(gap, each);
+  for (const double each : t.gap.data) gap = std::fmax(gap, each);
   if (gap >= 0)
     text += isLittle(gap, 1)
                 ? std::string("; they reach the ends of every proved cut")

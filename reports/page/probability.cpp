@@ -35,7 +35,7 @@ std::string distributionsOf(const Results& results, std::size_t output) {
     drawings.push_back(
         drawDistribution(results, at, output,
                          fmt::format("Plot of the distribution function of {}{}", results.outputs[output].name, when)));
-    const double gap = results.distribution.gaps[at * results.outputs.size() + output];
+    const double gap = results.distribution.gaps(at, output);
     const bool isKnownAlone = gap == 0 && !drawings.back().empty();  // its ends, between which nothing is told
     if (isKnownAlone) drawings.back().clear();
     const bool isOne = drawings.back().empty() && (isKnownAlone || isOneValue(results, times[at], output));

@@ -28,20 +28,17 @@ constexpr std::size_t drawnQuantities = 6;
 constexpr double visible = 0.005;     // of what is 1 in all
 constexpr double tellingShare = 0.5;  // wider bounds of a share would say nothing
 
-/// Numbers over time, one of each quantity, as the results hold them: [time][output][quantity].
+/// Numbers over time, one of each quantity, as the results hold them: time, output, quantity.
 struct Course {
   const std::vector<double>& time;
-  const std::vector<double>& numbers;
+  const Grid& numbers;
 };
 
 /// Those of an output by a quantity; NaN where there are none.
-Line lineOf(const Results& results, const Course& course, std::size_t output, std::size_t quantity) {
+Line lineOf(const Course& course, std::size_t output, std::size_t quantity) {
   Line line;
-  const std::size_t outputs = results.outputs.size(), quantities = results.uncertain.size();
-  for (std::size_t at = 0; at < course.time.size(); ++at) {
-    const std::size_t i = (at * outputs + output) * quantities + quantity;
-    line.push_back(i < course.numbers.size() ? course.numbers[i] : std::nan(""));
-  }
+  for (std::size_t at = 0; at < course.time.size(); ++at)
+    line.push_back(course.numbers.empty() ? std::nan("") : course.numbers(at, output, quantity));
   return line;
 }
 
@@ -100,8 +97,7 @@ struct Answered {
 
 Answered indices(const Results& results, std::size_t output, bool isTotal) {
   const SensitivityResult& s = results.sensitivity;
-  const auto& lower = isTotal ? s.totalLower : s.firstLower;
-  const auto& upper = isTotal ? s.totalUpper : s.firstUpper;
+  const auto& bounds = isTotal ? s.total : s.first;
   const auto& sampled = isTotal ? s.totalSampled : s.firstSampled;
   const auto& error = isTotal ? s.totalError : s.firstError;
   Answered answer{.kind = isTotal ? "total" : "first",
@@ -114,12 +110,12 @@ Answered indices(const Results& results, std::size_t output, bool isTotal) {
   std::vector<Cause> causes;
   for (std::size_t q = 0; s.present && q < results.uncertain.size(); ++q) {
     Cause cause{.quantity = q};
-    cause.proved = {lineOf(results, {s.time, lower}, output, q), lineOf(results, {s.time, upper}, output, q)};
+    cause.proved = {lineOf({s.time, bounds.lower}, output, q), lineOf({s.time, bounds.upper}, output, q)};
     for (std::size_t i = 0; i < s.time.size(); ++i)
       if (!(cause.proved.upper[i] - cause.proved.lower[i] < tellingShare))
         cause.proved.lower[i] = cause.proved.upper[i] = std::nan("");
-    cause.estimate = lineOf(results, {s.time, sampled}, output, q);
-    cause.error = lineOf(results, {s.time, error}, output, q);
+    cause.estimate = lineOf({s.time, sampled}, output, q);
+    cause.error = lineOf({s.time, error}, output, q);
     causes.push_back(std::move(cause));
   }
   answer.causes = ranked(std::move(causes), answer.time.size(), true);
@@ -132,7 +128,7 @@ Answered shares(const Results& results, std::size_t output, const Course& course
   answer.number = answer.head;
   std::vector<Cause> causes;
   for (std::size_t q = 0; q < results.uncertain.size(); ++q)
-    causes.push_back({.quantity = q, .number = lineOf(results, course, output, q)});
+    causes.push_back({.quantity = q, .number = lineOf(course, output, q)});
   answer.causes = ranked(std::move(causes), answer.time.size(), true);
   return answer;
 }
@@ -153,7 +149,7 @@ Answered derivatives(const Results& results, std::size_t output) {
   for (std::size_t q = 0; d.present && q < results.uncertain.size(); ++q) {
     const UncertainInfo& quantity = results.uncertain[q];
     Cause cause{.quantity = q};
-    cause.proved = {lineOf(results, {d.time, d.lower}, output, q), lineOf(results, {d.time, d.upper}, output, q)};
+    cause.proved = {lineOf({d.time, d.lower}, output, q), lineOf({d.time, d.upper}, output, q)};
     const Told told(quantity);
     for (std::size_t i = 0; i < d.time.size(); ++i) {
       double &lower = cause.proved.lower[i], &upper = cause.proved.upper[i];

@@ -2,6 +2,7 @@
 #include "reports/sections/contribution.hpp"
 
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -21,13 +22,15 @@ void drawFurther(const FurtherPart& part, std::size_t output, Plot& plot) {
       Layer layer{.name = std::string(part.key()) + std::string(field.name),
                   .words = std::string(field.meaning),
                   .style = {colours[drawn++ % colours.size()], 0.2, 1.2}};
-      if (const auto* bounds = std::get_if<Envelope*>(&field.value); bounds != nullptr && !(*bounds)->empty()) {
-        layer.bands.push_back(bandOf(**bounds, output));
-      } else if (const auto* line = std::get_if<Table*>(&field.value); line != nullptr && !(*line)->empty()) {
-        layer.kind = Layer::Kind::line;
-        layer.bands.push_back({lineOf(**line, output), {}});
-      } else {
-        continue;
+      const auto* numbers = std::get_if<Numbers>(&field.value);
+      if (numbers == nullptr || numbers->empty()) continue;
+      std::vector<double> room;
+      Band& band = layer.bands.emplace_back();
+      if (numbers->ends().size() == 1) layer.kind = Layer::Kind::line;
+      for (std::size_t end = 0; end < numbers->ends().size(); ++end) {
+        const std::span<const double> all = numbers->all(end, room);
+        for (std::size_t i = output; i < all.size(); i += all.size() / plot.time.size())
+          (end == 0 ? band.lower : band.upper).push_back(all[i]);
       }
       plot.layers.push_back(std::move(layer));
     }

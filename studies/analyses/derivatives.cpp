@@ -33,20 +33,17 @@ void take(const Study& study, const DerivativeFlow& flow, const std::vector<std:
           DerivativeResult& result) {
   constexpr std::size_t most = 64;
   const std::size_t last = study.times.size() - 1, count = std::min(last, most);
-  for (std::size_t i = 0; i <= count; ++i) {
-    const std::size_t row = i * last / count;
-    if (row >= tube.reachedTimes()) break;
-    result.time.push_back(study.times[row]);
-    const std::vector<Interval>& values = tube.outputs(row);
+  const auto rowOf = [&](std::size_t i) { return i * last / count; };
+  for (std::size_t i = 0; i <= count && rowOf(i) < tube.reachedTimes(); ++i)
+    result.time.push_back(study.times[rowOf(i)]);
+  result.lower = result.upper = Grid({result.time.size(), study.outputs.size(), study.uncertain.size()});
+  for (std::size_t i = 0; i < result.time.size(); ++i) {
+    const std::vector<Interval>& values = tube.outputs(rowOf(i));
     for (std::size_t output = 0; output < study.outputs.size(); ++output)
-      for (std::size_t q = 0; q < study.uncertain.size(); ++q) {
-        const auto which = std::ranges::find(quantities, q) - quantities.begin();
-        const bool isKnown = which < std::ssize(quantities);
-        const Interval bounds = isKnown
-                                    ? values[flow.outputDerivative(static_cast<int>(output), static_cast<int>(which))]
-                                    : Interval::empty();
-        result.lower.push_back(isKnown ? bounds.lower() : std::numeric_limits<double>::quiet_NaN());
-        result.upper.push_back(isKnown ? bounds.upper() : std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t which = 0; which < quantities.size(); ++which) {
+        const Interval bounds = values[flow.outputDerivative(static_cast<int>(output), static_cast<int>(which))];
+        result.lower(i, output, quantities[which]) = bounds.lower();
+        result.upper(i, output, quantities[which]) = bounds.upper();
       }
   }
 }
@@ -104,8 +101,8 @@ void DerivativeResult::describe(std::vector<Group>& groups) {
       groupOf("/derivatives", "how outputs change with the uncertain quantities, proved", *this, fieldsOf));
   groups.back().inJson = {{"lower", "*/0"}, {"upper", "*/1"}};
   groups.back().makesSense = [this](std::size_t) {
-    for (std::size_t i = 0; i < lower.size(); ++i)
-      if (lower[i] > upper[i]) return false;
+    for (std::size_t i = 0; i < lower.data.size(); ++i)
+      if (lower.data[i] > upper.data[i]) return false;
     return true;
   };
 }

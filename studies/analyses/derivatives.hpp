@@ -12,9 +12,8 @@ namespace gamut {
 
 /// Enclosures of the derivatives of outputs by uncertain quantities, over all values of these.
 struct DerivativeResult final : FurtherPart {
-  std::vector<double> time;          ///< s: some output times, up to `reached`
-  std::vector<double> lower, upper;  ///< [time][output][quantity], in the output's unit by the quantity's; NaN by what
-                                     ///< varies in time
+  std::vector<double> time;  ///< s: some output times, up to `reached`
+  Grid lower, upper;  ///< time, output, quantity, in the output's unit by the quantity's; NaN by what varies in time
 
   std::string_view key() const override { return "derivatives"; }
   std::string title() const override { return "derivatives"; }

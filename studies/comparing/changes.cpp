@@ -97,8 +97,7 @@ class Finder {
     const DistributionResult &one = a_.distribution, &other = b_.distribution;
     if (one.gaps.empty() || other.gaps.empty()) return greatest;
     for (const auto& [i, j] : sharedNumbers(one.time, other.time)) {
-      const double gap = one.gaps[i * a_.outputs.size() + output.first],
-                   otherGap = other.gaps[j * b_.outputs.size() + output.second];
+      const double gap = one.gaps(i, output.first), otherGap = other.gaps(j, output.second);
       if (std::isnan(gap)) continue;
       greatest.first = std::fmax(greatest.first, gap);
       greatest.second = std::fmax(greatest.second, std::isnan(otherGap) ? 1 : otherGap);  // nothing is known any more

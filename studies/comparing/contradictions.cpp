@@ -169,18 +169,24 @@ class ContradictionFinder {
 
   // ---- Probabilities ------------------------------------------------------------------------------------------------
 
+  /// That of an output at a time.
+  struct Function {
+    const DistributionResult& of;
+    std::size_t at, output;
+  };
+
   /// A proved bound from below of one distribution function at one of its values; from above of the other, which
   /// rises, at the least of its values that is not below.
-  void compareFunctions(std::size_t k, double time, const DistributionResult& low, std::size_t lowBegin,
-                        const DistributionResult& high, std::size_t highBegin, bool isLowFirst) {
-    std::size_t j = highBegin;
-    const std::size_t end = highBegin + high.point.size();
-    for (std::size_t i = lowBegin; i < lowBegin + low.point.size() && !std::isnan(low.value[i]); ++i) {
-      while (j < end && high.value[j] < low.value[i]) ++j;
-      const double least = low.lower[i], most = j < end && high.value[j] >= low.value[i] ? high.upper[j] : 1;
+  void compareFunctions(std::size_t k, double time, const Function& low, const Function& high, bool isLowFirst) {
+    const std::span<const double> values = low.of.values(low.at, low.output),
+                                  others = high.of.values(high.at, high.output);
+    for (std::size_t i = 0, j = 0; i < values.size(); ++i) {
+      while (j < others.size() && others[j] < values[i]) ++j;
+      const double least = low.of.lower(low.at, low.output, i),
+                   most = j < others.size() ? high.of.upper(high.at, high.output, j) : 1;
       const auto found = [&] {
         Contradiction it = about(Of::distribution, k, time);
-        it.at = low.value[i];
+        it.at = values[i];
         return it;
       };
       if (isLowFirst)
@@ -197,12 +203,20 @@ class ContradictionFinder {
       if (d->value.empty() || d->lower.empty() || d->upper.empty()) return;
     for (std::size_t k = 0; k < shared_.outputs.size(); ++k)
       for (const auto& [i, j] : sharedNumbers(one.time, other.time)) {
-        const std::size_t begin = one.begin(i, shared_.outputs[k].first, a_.outputs.size()),
-                          otherBegin = other.begin(j, shared_.outputs[k].second, b_.outputs.size());
-        if (std::isnan(one.value[begin]) || std::isnan(other.value[otherBegin])) continue;
-        compareFunctions(k, one.time[i], one, begin, other, otherBegin, true);
-        compareFunctions(k, one.time[i], other, otherBegin, one, begin, false);
+        const Function function{one, i, shared_.outputs[k].first}, otherOne{other, j, shared_.outputs[k].second};
+        if (one.values(i, function.output).empty() || other.values(j, otherOne.output).empty()) continue;
+        compareFunctions(k, one.time[i], function, otherOne, true);
+        compareFunctions(k, one.time[i], otherOne, function, false);
       }
+  }
+
+  struct Pair {
+    double lower, upper;
+  };
+  template <class... Places>
+  static Pair boundsOf(const BoundGrids& bounds, Places... places) {
+    if (bounds.lower.empty() || bounds.upper.empty()) return {none, none};
+    return {bounds.lower(places...), bounds.upper(places...)};
   }
 
   void compareIndices() {
@@ -210,32 +224,25 @@ class ContradictionFinder {
     if (!one.present || !other.present) return;
     for (std::size_t k = 0; k < shared_.outputs.size(); ++k)
       for (const auto& [i, j] : sharedNumbers(one.time, other.time)) {
-        const std::size_t cell = i * a_.outputs.size() + shared_.outputs[k].first,
-                          otherCell = j * b_.outputs.size() + shared_.outputs[k].second;
-        const auto compare = [&](Of of, const std::string& quantity, std::size_t place, std::size_t otherPlace,
-                                 std::vector<double> SensitivityResult::*lower,
-                                 std::vector<double> SensitivityResult::*upper) {
-          const auto number = [](const std::vector<double>& list, std::size_t at) {
-            return at < list.size() ? list[at] : none;
-          };
-          compareSets(number(one.*lower, place), number(one.*upper, place), number(other.*lower, otherPlace),
-                      number(other.*upper, otherPlace), [&] {
-                        Contradiction found = about(of, k, one.time[i]);
-                        found.detail = quantity;
-                        return found;
-                      });
+        const std::size_t output = shared_.outputs[k].first, otherOutput = shared_.outputs[k].second;
+        const double time = one.time[i];
+        const auto compare = [&](Of of, const std::string& quantity, const Pair& bounds, const Pair& others) {
+          compareSets(bounds.lower, bounds.upper, others.lower, others.upper, [&] {
+            Contradiction found = about(of, k, time);
+            found.detail = quantity;
+            return found;
+          });
         };
-        using S = SensitivityResult;
-        compare(Of::mean, "", cell, otherCell, &S::meanLower, &S::meanUpper);
-        compare(Of::deviation, "", cell, otherCell, &S::deviationLower, &S::deviationUpper);
+        compare(Of::mean, "", boundsOf(one.mean, i, output), boundsOf(other.mean, j, otherOutput));
+        compare(Of::deviation, "", boundsOf(one.deviation, i, output), boundsOf(other.deviation, j, otherOutput));
         for (std::size_t q = 0; q < a_.uncertain.size(); ++q) {
           const auto same = std::ranges::find(b_.uncertain, a_.uncertain[q].quantity, &UncertainInfo::quantity);
           if (same == b_.uncertain.end()) continue;
-          const std::size_t place = cell * a_.uncertain.size() + q,
-                            otherPlace =
-                                otherCell * b_.uncertain.size() + static_cast<std::size_t>(same - b_.uncertain.begin());
-          compare(Of::firstIndex, a_.uncertain[q].name, place, otherPlace, &S::firstLower, &S::firstUpper);
-          compare(Of::totalIndex, a_.uncertain[q].name, place, otherPlace, &S::totalLower, &S::totalUpper);
+          const auto otherQ = static_cast<std::size_t>(same - b_.uncertain.begin());
+          compare(Of::firstIndex, a_.uncertain[q].name, boundsOf(one.first, i, output, q),
+                  boundsOf(other.first, j, otherOutput, otherQ));
+          compare(Of::totalIndex, a_.uncertain[q].name, boundsOf(one.total, i, output, q),
+                  boundsOf(other.total, j, otherOutput, otherQ));
         }
       }
   }

@@ -60,41 +60,9 @@ class ContentReader {
     return values;
   }
 
-  std::vector<double> doubles(const Group& group, const Field& field, const std::string& suffix, const Hdf5Reader& in) {
-    return numbers<double>(group, field, std::string(field.name) + suffix, in,
+  std::vector<double> doubles(const Group& group, const Field& field, std::string_view suffix, const Hdf5Reader& in) {
+    return numbers<double>(group, field, std::string(field.name) + std::string(suffix), in,
                            [&](const std::string& name, Hdf5Shape& shape) { return in.numbers(name, shape); });
-  }
-
-  /// Cut into tables of times and outputs.
-  std::vector<Table> tables(const Group& group, const Field& field, const std::string& suffix, const Hdf5Reader& in) {
-    const std::vector<double> numbers = doubles(group, field, suffix, in);
-    const std::size_t times = extents_[std::string(dimension::time)],
-                      outputs = extents_[std::string(dimension::output)];
-    std::vector<Table> stack;
-    for (std::size_t at = 0; at < numbers.size(); at += times * outputs) {
-      Table& table = stack.emplace_back();
-      table.times = times;
-      table.outputs = outputs;
-      table.data.assign(numbers.begin() + static_cast<std::ptrdiff_t>(at),
-                        numbers.begin() + static_cast<std::ptrdiff_t>(at + times * outputs));
-    }
-    return stack;
-  }
-
-  std::vector<Envelope> envelopes(const Group& group, const Field& field, const Hdf5Reader& in) {
-    std::vector<Table> lower = tables(group, field, "_lower", in), upper = tables(group, field, "_upper", in);
-    if (lower.size() != upper.size()) throw Hdf5Error(pathOf(group, field));
-    std::vector<Envelope> stack(lower.size());
-    for (std::size_t i = 0; i < stack.size(); ++i) {
-      stack[i].lower = std::move(lower[i]);
-      stack[i].upper = std::move(upper[i]);
-    }
-    return stack;
-  }
-
-  template <class T>
-  static void takeFirst(std::vector<T> stack, T& value) {
-    if (!stack.empty()) value = std::move(stack.front());
   }
 
   void readRecord(const Group& group, const Hdf5Reader& in) {
@@ -105,16 +73,17 @@ class ContentReader {
                          [&](std::string* x) { *x = in.text(name); },
                          [&](Choice x) { takeWord(x, in.text(name), group, field); },
                          [&](WholeText x) { *x.text = in.wholeText(name); },
-                         [&](std::vector<double>* v) { *v = doubles(group, field, "", in); },
+                         [&](const Numbers& n) {
+                           for (std::size_t end = 0; end < n.ends().size(); ++end) {
+                             std::vector<double> all = doubles(group, field, n.ends()[end], in);
+                             n.take(end, shapeOf(field.dimensions, extents_), std::move(all));
+                           }
+                         },
                          [&](std::vector<std::int64_t>* v) {
                            *v = numbers<std::int64_t>(
                                group, field, name, in,
                                [&](const std::string& n, Hdf5Shape& shape) { return in.integers(n, shape); });
-                         },
-                         [&](Table* t) { takeFirst(tables(group, field, "", in), *t); },
-                         [&](std::vector<Table>* v) { *v = tables(group, field, "", in); },
-                         [&](Envelope* e) { takeFirst(envelopes(group, field, in), *e); },
-                         [&](std::vector<Envelope>* v) { *v = envelopes(group, field, in); }},
+                         }},
                  field.value);
     }
   }
@@ -138,7 +107,7 @@ class ContentReader {
     };
     return std::visit(Visitor{[&](std::string*) { return texts(); }, [&](Choice) { return texts(); },
                               [&](double*) -> Column { return in.numbers(name, shape); },
-                              [&](std::vector<double>*) -> Column { return in.numbers(name, shape); },
+                              [&](const Numbers&) -> Column { return in.numbers(name, shape); },
                               [&](const auto&) -> Column { return in.integers(name, shape); }},
                       field.value);
   }
@@ -181,11 +150,11 @@ class ContentReader {
                        [&](bool* x) { *x = integer() != 0; },
                        [&](std::string* x) { *x = std::get<std::vector<std::string>>(column)[i]; },
                        [&](Choice x) { takeWord(x, std::get<std::vector<std::string>>(column)[i], group, field); },
-                       [&](std::vector<double>* v) {
+                       [&](const Numbers& n) {
                          const std::vector<double>& all = std::get<std::vector<double>>(column);
                          const auto each = static_cast<std::ptrdiff_t>(all.size() / size);
                          const auto from = all.begin() + static_cast<std::ptrdiff_t>(i) * each;
-                         v->assign(from, from + each);
+                         n.take(0, {static_cast<std::size_t>(each)}, {from, from + each});
                        },
                        [](const auto&) {}},
                field.value);

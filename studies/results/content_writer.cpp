@@ -59,30 +59,16 @@ class ContentWriter {
     }
   }
 
-  void writeNumbers(const Group& group, const Field& field, const std::string& suffix, const std::string& meaning,
-                    const double* numbers, Hdf5Writer& out) const {
-    const std::string name = std::string(field.name) + suffix;
-    const std::vector<std::size_t> shape = shapeOf(dimensionsOf(group, field), extents_);
-    out.numbers(name, numbers, {shape.begin(), shape.end()}, std::string(field.meaning) + meaning, unitOf(field),
+  /// None where nothing is uncertain, say.
+  void writeNumbers(const Group& group, const Field& field, std::string_view suffix, std::span<const double> numbers,
+                    Hdf5Writer& out) const {
+    if (numbers.empty()) return;
+    const std::string name = std::string(field.name) + std::string(suffix);
+    const std::string end = suffix == "_lower" ? ", lower bound" : suffix == "_upper" ? ", upper bound" : "";
+    const GridShape shape = shapeOf(dimensionsOf(group, field), extents_);
+    out.numbers(name, numbers.data(), {shape.begin(), shape.end()}, std::string(field.meaning) + end, unitOf(field),
                 field.isNoise);
     place(group, field, name, out);
-  }
-
-  /// One table after the other.
-  template <class Tables, class Part>
-  void writeStack(const Group& group, const Field& field, const Tables& tables, const std::string& suffix,
-                  const std::string& meaning, const Part& part, Hdf5Writer& out) const {
-    std::vector<double> numbers;
-    for (const auto& table : tables) numbers.insert(numbers.end(), part(table).data.begin(), part(table).data.end());
-    if (!numbers.empty()) writeNumbers(group, field, suffix, meaning, numbers.data(), out);
-  }
-
-  template <class Envelopes>
-  void writeBounds(const Group& group, const Field& field, const Envelopes& envelopes, Hdf5Writer& out) const {
-    const auto lower = [](const Envelope& e) -> const Table& { return e.lower; };
-    const auto upper = [](const Envelope& e) -> const Table& { return e.upper; };
-    writeStack(group, field, envelopes, "_lower", ", lower bound", lower, out);
-    writeStack(group, field, envelopes, "_upper", ", upper bound", upper, out);
   }
 
   /// The unit of an attribute stands beside it.
@@ -101,23 +87,16 @@ class ContentWriter {
                        [&](std::string* x) { writeAttribute(field, *x, out); },
                        [&](Choice x) { writeAttribute(field, x.word(), out); },
                        [&](WholeText x) { out.text(std::string(field.name), *x.text, std::string(field.meaning)); },
-                       [&](std::vector<double>* v) {
-                         if (!v->empty()) writeNumbers(group, field, "", "", v->data(), out);
+                       [&](const Numbers& n) {
+                         std::vector<double> room;
+                         for (std::size_t end = 0; end < n.ends().size(); ++end)
+                           writeNumbers(group, field, n.ends()[end], n.all(end, room), out);
                        },
                        [&](std::vector<std::int64_t>* v) {
                          if (v->empty()) return;
                          out.integers(std::string(field.name), *v, std::string(field.meaning));
                          place(group, field, std::string(field.name), out);
-                       },
-                       [&](Table* t) {
-                         if (!t->empty()) writeNumbers(group, field, "", "", t->data.data(), out);
-                       },
-                       [&](std::vector<Table>* v) {
-                         writeStack(
-                             group, field, *v, "", "", [](const Table& t) -> const Table& { return t; }, out);
-                       },
-                       [&](Envelope* e) { writeBounds(group, field, std::span(e, 1), out); },
-                       [&](std::vector<Envelope>* v) { writeBounds(group, field, *v, out); }},
+                       }},
                field.value);
   }
 
@@ -141,15 +120,12 @@ class ContentWriter {
                    Hdf5Writer& out) const {
     const Field& field = records.front()[f];
     const std::string name(field.name), meaning(field.meaning);
-    const auto writeNumberColumn = [&](const std::vector<double>& numbers) {
-      writeNumbers(group, field, "", "", numbers.data(), out);
-    };
     const auto writeIntegerColumn = [&](const std::vector<std::int64_t>& numbers) {
       out.integers(name, numbers, meaning);
       place(group, field, name, out);
     };
     std::visit(
-        Visitor{[&](double*) { writeNumberColumn(column<double, double>(records, f)); },
+        Visitor{[&](double*) { writeNumbers(group, field, "", column<double, double>(records, f), out); },
                 [&](std::int64_t*) { writeIntegerColumn(column<std::int64_t, std::int64_t>(records, f)); },
                 [&](std::uint64_t*) { writeIntegerColumn(column<std::uint64_t, std::int64_t>(records, f)); },
                 [&](bool*) { writeIntegerColumn(column<bool, std::int64_t>(records, f)); },
@@ -164,11 +140,12 @@ class ContentWriter {
                   out.texts(name, texts, meaning);
                   place(group, field, name, out);
                 },
-                [&](std::vector<double>*) {
+                [&](const Numbers&) {
                   std::vector<double> numbers;
-                  for (const auto& some : column<std::vector<double>, std::vector<double>>(records, f))
-                    numbers.insert(numbers.end(), some.begin(), some.end());
-                  if (!numbers.empty()) writeNumberColumn(numbers);  // none where nothing is uncertain, say
+                  for (const std::vector<Field>& fields : records)
+                    for (const std::vector<double>* some : std::get<Numbers>(fields[f].value).lists())
+                      numbers.insert(numbers.end(), some->begin(), some->end());
+                  writeNumbers(group, field, "", numbers, out);
                 },
                 [&](const auto&) { throw std::logic_error(pathOf(group, field) + ": no record has such a field"); }},
         field.value);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "analyses/table.hpp"
+#include "studies/results/grid.hpp"
 
 namespace gamut {
 
@@ -54,12 +55,34 @@ struct Choice {
   }
 };
 
-/// Where the value of a field lies. Vectors, tables and stacks of tables have a place for every combination of the
-/// field's dimensions, the last one running fastest; empty ones are not there. An Envelope is two fields, NAME_lower
-/// and NAME_upper.
-using FieldValue =
-    std::variant<double*, std::int64_t*, std::uint64_t*, bool*, std::string*, WholeText, Choice, std::vector<double>*,
-                 std::vector<std::int64_t>*, Table*, std::vector<Table>*, Envelope*, std::vector<Envelope>*>;
+/// Numbers however they lie, or bounds of them, which are two in the file, NAME_lower and NAME_upper. They have a place
+/// for every combination of the field's dimensions, the last one running fastest; empty ones are not there.
+class Numbers {
+ public:
+  using Holder =
+      std::variant<std::vector<double>*, Grid*, Table*, std::vector<Table>*, Envelope*, std::vector<Envelope>*>;
+
+  template <class T, class = std::enable_if_t<std::is_constructible_v<Holder, T*>>>
+  Numbers(T* holder) : holder_(holder) {}  // NOLINT(google-explicit-*): a field's value is where it lies
+
+  const Holder& holder() const { return holder_; }
+  /// What their names end in: "", or "_lower" and "_upper".
+  std::vector<std::string_view> ends() const;
+  /// The lists in which those of an end lie, one after the other.
+  std::vector<std::vector<double>*> lists(std::size_t end = 0) const;
+  /// Those of an end; put into `room` if they do not lie in one list.
+  std::span<const double> all(std::size_t end, std::vector<double>& room) const;
+  bool empty() const;
+  bool hasShape(const GridShape& shape, bool mayBeEmpty) const;
+  void take(std::size_t end, const GridShape& shape, std::vector<double> numbers) const;
+
+ private:
+  Holder holder_;
+};
+
+/// Where the value of a field lies.
+using FieldValue = std::variant<double*, std::int64_t*, std::uint64_t*, bool*, std::string*, WholeText, Choice,
+                                std::vector<std::int64_t>*, Numbers>;
 
 namespace dimension {  // a path in the file, where its scale lies
 inline constexpr std::string_view time = "/time", output = "/output", quantity = "/quantity",
@@ -149,14 +172,14 @@ Extents extentsOf(const std::vector<Group>& groups);
 std::vector<std::string_view> dimensionsOf(const Group& group, const Field& field);
 
 /// So many places, or none where a dimension is not there.
-std::vector<std::size_t> shapeOf(const std::vector<std::string_view>& dimensions, const Extents& extents);
+GridShape shapeOf(const std::vector<std::string_view>& dimensions, const Extents& extents);
 
 /// Whether the bounds are those of an interval that is not empty, or one is NaN.
 bool isInterval(double lower, double upper);
 
 /// Whether the bounds (or the numbers themselves) are those of shares, from 0 to 1, or both are NaN: nothing is known.
-bool areShares(const std::vector<double>& lower, const std::vector<double>& upper);
-bool areShares(const std::vector<double>& numbers);
+bool areShares(const Grid& lower, const Grid& upper);
+bool areShares(const Grid& numbers);
 
 /// The path of the first field whose value has not the shape that its dimensions give it; empty if there is none.
 std::string misshapen(const std::vector<Group>& groups);

@@ -13,8 +13,8 @@ namespace gamut {
 /// How much each quantity matters to each output, by Hanss' measures of influence.
 struct InfluenceResult {
   bool present = false;
-  std::vector<double> time;   ///< s: output times
-  std::vector<double> share;  ///< [time][output][quantity]; NaN where no quantity has any
+  std::vector<double> time;  ///< s: output times
+  Grid share;                ///< time, output, quantity; NaN where no quantity has any
 };
 
 /// Where samples were put inside the alpha-cuts, by a transformation method after Hanss.
@@ -23,8 +23,8 @@ struct TransformationResult {
   std::string method;                 ///< "reduced", "general" or "extended"
   std::vector<std::int64_t> stepped;  ///< 1 if the quantity takes values between the ends of its cuts; empty: not known
   std::vector<double> turns;          ///< extended: how far outputs go back along it; empty unless that was looked for
-  std::vector<double> gap;            ///< [level][output]: what samples leave of the proved cut, of the widest cut
-  std::vector<double> gapTime;        ///< s: when it is greatest
+  Grid gap;                           ///< level, output: what samples leave of the proved cut, of the widest cut
+  Grid gapTime;                       ///< s: when it is greatest
 };
 
 /// Alpha-cuts, level 0 the widest.

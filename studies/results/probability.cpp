@@ -48,23 +48,23 @@ std::vector<Field> fieldsOf(SensitivityResult& s) {
   constexpr std::string_view when = "/sensitivity/time";
   return s.fieldsAnd(
       {{"time", &s.time, unit::second, "output times of which sensitivities are bounded", {when}},
-       {"mean_lower", &s.meanLower, unit::ofOutput, "proved bound of the mean", {when, output}},
-       {"mean_upper", &s.meanUpper, unit::ofOutput, "upper bound", {when, output}},
-       {"deviation_lower", &s.deviationLower, unit::ofOutput, "of the standard deviation", {when, output}},
-       {"deviation_upper", &s.deviationUpper, unit::ofOutput, "upper bound", {when, output}},
+       {"mean_lower", &s.mean.lower, unit::ofOutput, "proved bound of the mean", {when, output}},
+       {"mean_upper", &s.mean.upper, unit::ofOutput, "upper bound", {when, output}},
+       {"deviation_lower", &s.deviation.lower, unit::ofOutput, "of the standard deviation", {when, output}},
+       {"deviation_upper", &s.deviation.upper, unit::ofOutput, "upper bound", {when, output}},
        {"first_lower",
-        &s.firstLower,
+        &s.first.lower,
         unit::one,
         "proved bound of the Sobol' index: the share of the variance that would vanish on average if the quantity "
         "were known",
         {when, output, quantity}},
-       {"first_upper", &s.firstUpper, unit::one, "upper bound", {when, output, quantity}},
+       {"first_upper", &s.first.upper, unit::one, "upper bound", {when, output, quantity}},
        {"total_lower",
-        &s.totalLower,
+        &s.total.lower,
         unit::one,
         "of the total Sobol' index: the share that would stay on average if all other quantities were known",
         {when, output, quantity}},
-       {"total_upper", &s.totalUpper, unit::one, "upper bound", {when, output, quantity}},
+       {"total_upper", &s.total.upper, unit::one, "upper bound", {when, output, quantity}},
        {"pinched",
         &s.pinched,
         unit::one,
@@ -118,7 +118,7 @@ void SensitivityResult::describe(std::vector<Group>& groups) {
                           {"total_sampled", "indices/*/total_sampled/0"},
                           {"total_error", "indices/*/total_sampled/1"}};
   groups.back().makesSense = [this](std::size_t) {
-    return areShares(firstLower, firstUpper) && areShares(totalLower, totalUpper) && areShares(pinched);
+    return areShares(first.lower, first.upper) && areShares(total.lower, total.upper) && areShares(pinched);
   };
 }
 

@@ -170,12 +170,12 @@ class Finder {
     const std::size_t outputs = results_.outputs.size();
     if (!distribution.present || !(distribution.band > 0) || distribution.excess.empty()) return;
     const auto known = [](double x) { return !std::isnan(x); };
-    const double m = static_cast<double>(std::ranges::count_if(distribution.excess, known));
+    const double m = static_cast<double>(std::ranges::count_if(distribution.excess.data, known));
     const double n = static_cast<double>(results_.stochastic.samples);
     const auto band = [&](double alpha) { return std::sqrt(std::log(2 * m / alpha) / (2 * n)); };
     bool isRefuted = false;
-    for (std::size_t i = 0; i < distribution.excess.size(); ++i) {
-      const double excess = distribution.excess[i];
+    for (std::size_t i = 0; i < distribution.excess.data.size(); ++i) {
+      const double excess = distribution.excess.data[i];
       if (!(excess > finding_.unlikely.distance) || !(excess > band(0.05))) continue;
       const auto time = std::ranges::lower_bound(results_.time, distribution.time[i / outputs]);
       finding_.unlikely = {excess, static_cast<std::size_t>(time - results_.time.begin()), i % outputs,

@@ -62,15 +62,14 @@ void compareAnswers(const Run& run, std::size_t reachedTimes, const SampledMotio
   TransformationResult& transformation = results.fuzzy.transformation;
   if (transformation.present && !results.fuzzy.inner.empty()) {
     const CutGaps gaps = measureGaps(results.fuzzy.outer, results.fuzzy.inner, results.stochastic.error, compared);
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    transformation.gap = gaps.gap;
-    transformation.gapTime.clear();
-    for (std::size_t i = 0; i < gaps.row.size(); ++i) {
-      const bool isNothing = !samples.scales.empty() && samples.scales[i % samples.scales.size()].isNothing();
-      if (isNothing) transformation.gap[i] = unknown;  // there is nothing that could be filled
-      transformation.gapTime.push_back(gaps.row[i] < results.time.size() && !isNothing ? results.time[gaps.row[i]]
-                                                                                       : unknown);
-    }
+    const GridShape shape{results.fuzzy.alpha.size(), results.outputs.size()};
+    transformation.gap = Grid(shape, gaps.gap);
+    transformation.gapTime = Grid(shape);
+    for (std::size_t i = 0; i < gaps.row.size(); ++i)
+      if (!samples.scales.empty() && samples.scales[i % samples.scales.size()].isNothing())
+        transformation.gap.data[i] = std::numeric_limits<double>::quiet_NaN();  // there is nothing that could be filled
+      else if (gaps.row[i] < results.time.size())
+        transformation.gapTime.data[i] = results.time[gaps.row[i]];
   }
   comparison.verdict = findVerdict(results).word;
 }

@@ -93,8 +93,7 @@ void forgetSamples(Results& results, std::size_t samples) {
   results.stochastic = std::move(none);
   results.fuzzy.inner.clear();
   results.fuzzy.influence = {};
-  results.fuzzy.transformation.gap.clear();
-  results.fuzzy.transformation.gapTime.clear();
+  results.fuzzy.transformation.gap = results.fuzzy.transformation.gapTime = {};
   results.comparison = {};
   for (RequirementResult& result : results.requirements) {
     result.samples = result.violating = 0;

@@ -20,8 +20,6 @@
 namespace gamut {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 class Probabilities {
  public:
   Probabilities(Run& run, const OutputScales& scales, TightenedModels& models, ModelMasses& masses,
@@ -56,25 +54,20 @@ class Probabilities {
       for (std::size_t k = 0; k < outputs_.size(); ++k) most = std::max(most, found_.at(at, k).value.size());
     for (const std::size_t row : rows_) result.time.push_back(run_.study.times[row]);
     for (std::size_t i = 0; i < most; ++i) result.point.push_back(static_cast<double>(i));
-    for (std::vector<double>* numbers : {&result.value, &result.lower, &result.upper})
-      numbers->assign(rows_.size() * count_ * most, unknown);
-    result.gaps.assign(rows_.size() * count_, unknown);
+    result.value = result.lower = result.upper = Grid({rows_.size(), count_, most});
+    result.gaps = Grid({rows_.size(), count_});
     bool areAllKnown = true;
     for (std::size_t at = 0; at < rows_.size(); ++at)
       for (std::size_t k = 0; k < outputs_.size(); ++k) {
         const auto output = static_cast<std::size_t>(outputs_[k]);
         if (isNothing(output)) continue;  // one value, with all of the probability
         const DistributionBounds& bounds = found_.at(at, k);
-        const std::size_t begin = result.begin(at, output, count_), cell = at * count_ + output;
         areAllKnown = areAllKnown && !bounds.value.empty();
         if (bounds.value.empty()) continue;
-        const auto put = [&](const std::vector<double>& from, std::vector<double>& to) {
-          std::ranges::copy(from, to.begin() + static_cast<std::ptrdiff_t>(begin));
-        };
-        put(bounds.value, result.value);
-        put(bounds.lower, result.lower);
-        put(bounds.upper, result.upper);
-        result.gaps[cell] = bounds.gap;
+        std::ranges::copy(bounds.value, result.value.row(at, output).begin());
+        std::ranges::copy(bounds.lower, result.lower.row(at, output).begin());
+        std::ranges::copy(bounds.upper, result.upper.row(at, output).begin());
+        result.gaps(at, output) = bounds.gap;
         result.gap = std::max(result.gap, bounds.gap);
       }
     if (!areAllKnown) result.gap = 1;
@@ -162,11 +155,9 @@ class Probabilities {
     if (rows.empty()) return;  // the enclosure ended at once
     result.present = true;
     for (const std::size_t row : rows) result.time.push_back(run_.study.times[row]);
-    for (auto* numbers : {&result.meanLower, &result.meanUpper, &result.deviationLower, &result.deviationUpper})
-      numbers->assign(rows.size() * count_, unknown);
-    for (auto* numbers : {&result.firstLower, &result.firstUpper, &result.totalLower, &result.totalUpper,
-                          &result.firstSampled, &result.firstError, &result.totalSampled, &result.totalError})
-      numbers->assign(rows.size() * count_ * all, unknown);
+    result.mean = result.deviation = BoundGrids({rows.size(), count_});
+    result.first = result.total = BoundGrids({rows.size(), count_, all});
+    result.firstSampled = result.firstError = result.totalSampled = result.totalError = result.first.lower;
     pinch(rows);
     if (!isPlain(run_.study)) {
       const bool areDependent = !run_.study.dependence.copulas.empty() || !run_.study.dependence.unknown.empty();
@@ -178,16 +169,16 @@ class Probabilities {
       return [&](std::size_t i) {
         const std::size_t at = i / outputs_.size(), k = i % outputs_.size();
         const SobolIndices indices = sobolIndices(surrogate_.get(), *surrogate_.partsAt(rows[at]), k, masses);
-        const std::size_t cell = at * count_ + static_cast<std::size_t>(outputs_[k]);
-        const auto put = [](const Interval& bounds, double& lower, double& upper) {
-          if (isBounded(bounds)) lower = bounds.lower(), upper = bounds.upper();
+        const auto put = [at, output = outputs_[k]](const Interval& bounds, BoundGrids& to, auto... quantity) {
+          if (!isBounded(bounds)) return;
+          to.lower(at, output, quantity...) = bounds.lower();
+          to.upper(at, output, quantity...) = bounds.upper();
         };
-        put(indices.mean, result.meanLower[cell], result.meanUpper[cell]);
-        put(indices.deviation, result.deviationLower[cell], result.deviationUpper[cell]);
+        put(indices.mean, result.mean);
+        put(indices.deviation, result.deviation);
         for (std::size_t q = 0; q < quantities_.size(); ++q) {
-          const std::size_t of = cell * all + quantities_[q];
-          put(indices.first[q], result.firstLower[of], result.firstUpper[of]);
-          put(indices.total[q], result.totalLower[of], result.totalUpper[of]);
+          put(indices.first[q], result.first, quantities_[q]);
+          put(indices.total[q], result.total, quantities_[q]);
         }
       };
     });
@@ -195,9 +186,8 @@ class Probabilities {
   }
 
   void pinch(const std::vector<std::size_t>& rows) {
-    const std::size_t all = run_.study.uncertain.size();
-    std::vector<double>& pinched = results_.sensitivity.pinched;
-    pinched.assign(rows.size() * count_ * all, unknown);
+    Grid& pinched = results_.sensitivity.pinched;
+    pinched = Grid({rows.size(), count_, run_.study.uncertain.size()});
     std::vector<double> nominal;
     for (const std::size_t q : quantities_) nominal.push_back(run_.study.uncertain[q].uncertain.nominal);
     forEachIndex(run_.options.jobs, rows.size() * outputs_.size(), run_.watch.stop(), [&] {
@@ -205,15 +195,14 @@ class Probabilities {
         const std::size_t row = i / outputs_.size(), k = i % outputs_.size();
         if (!std::ranges::binary_search(rows_, rows[row])) return;
         const std::vector<double> shares = pinchedShares(surrogate_.get(), *surrogate_.partsAt(rows[row]), k, nominal);
-        for (std::size_t q = 0; q < quantities_.size(); ++q)
-          pinched[(row * count_ + static_cast<std::size_t>(outputs_[k])) * all + quantities_[q]] = shares[q];
+        for (std::size_t q = 0; q < quantities_.size(); ++q) pinched(row, outputs_[k], quantities_[q]) = shares[q];
       };
     });
   }
 
   void estimateIndices(const std::vector<std::size_t>& rows) {
     SensitivityResult& result = results_.sensitivity;
-    const std::size_t all = run_.study.uncertain.size(), n = quantities_.size();
+    const std::size_t n = quantities_.size();
     if (n == 0 || *run_.watch.stop()) return;
     constexpr double least = 256, most = 8192, beside = 30;
     double terms = 0;  // of all outputs at all these times, in all
@@ -231,12 +220,13 @@ class Probabilities {
                              static_cast<std::size_t>(result.samples), results_.seed, run_.watch.stop());
     for (std::size_t cell = 0; cell < rows.size() * outputs.size(); ++cell)
       for (std::size_t q = 0; q < n; ++q) {
-        const std::size_t from = cell * n + q;
-        const std::size_t to = (cell / outputs.size() * count_ + outputs[cell % outputs.size()]) * all + quantities_[q];
-        result.firstSampled[to] = estimates.first[from];
-        result.firstError[to] = estimates.firstError[from];
-        result.totalSampled[to] = estimates.total[from];
-        result.totalError[to] = estimates.totalError[from];
+        const auto put = [&](const std::vector<double>& from, Grid& to) {
+          to(cell / outputs.size(), outputs[cell % outputs.size()], quantities_[q]) = from[cell * n + q];
+        };
+        put(estimates.first, result.firstSampled);
+        put(estimates.firstError, result.firstError);
+        put(estimates.total, result.totalSampled);
+        put(estimates.totalError, result.totalError);
       }
   }
 

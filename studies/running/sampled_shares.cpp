@@ -56,26 +56,23 @@ double bandOf(const Study& study, const StochasticResult& stochastic) {
 void compareShares(const Study& study, const SampledMotion& samples, Results& results) {
   DistributionResult& result = results.distribution;
   if (!result.present) return;
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const std::size_t outputs = study.outputs.size();
-  result.sampled.assign(result.value.size(), unknown);
-  result.excess.assign(result.gaps.size(), unknown);
+  result.sampled = Grid(result.value.extents);
+  result.excess = Grid(result.gaps.extents);
   result.band = bandOf(study, results.stochastic);
   if (!samples.ensemble) return;
   const Table& errors = results.stochastic.error;
-  for (std::size_t cell = 0; cell < result.gaps.size(); ++cell) {
-    const std::size_t at = cell / outputs, output = cell % outputs, begin = result.begin(at, output, outputs);
-    const std::span<const double> all = std::span(result.value).subspan(begin, result.point.size());
-    const auto count = static_cast<std::size_t>(
-        std::ranges::find_if(all, [](double value) { return std::isnan(value); }) - all.begin());
+  for (std::size_t cell = 0; cell < result.gaps.data.size(); ++cell) {
+    const std::size_t at = cell / outputs, output = cell % outputs;
+    const std::span<const double> values = result.values(at, output);
     const std::size_t row = rowOf(study.times, result.time[at]);
     const SampledShares shares = samples.ensemble->shares(row, output);
-    if (count == 0 || shares.value.empty()) continue;
-    const ProvedDistribution proved{all.first(count), std::span(result.lower).subspan(begin, count),
-                                    std::span(result.upper).subspan(begin, count)};
-    putShares(shares, proved.value, std::span(result.sampled).subspan(begin, count));
+    if (values.empty() || shares.value.empty()) continue;
+    const ProvedDistribution proved{values, result.lower.row(at, output).first(values.size()),
+                                    result.upper.row(at, output).first(values.size())};
+    putShares(shares, proved.value, result.sampled.row(at, output).first(values.size()));
     const double error = errors.empty() || !(errors(row, output) >= 0) ? 0 : errors(row, output);
-    result.excess[cell] = excessOf(shares, proved, error);
+    result.excess(at, output) = excessOf(shares, proved, error);
   }
 }
 

@@ -172,8 +172,9 @@ void describeInfluence(const Study& study, const InfluenceMeasures& measures, st
   for (std::size_t at = 0; at < rows.size() && rows[at] < reachedTimes; ++at) {
     result.time.push_back(study.times[rows[at]]);
     for (std::size_t output = 0; output < study.outputs.size(); ++output)
-      std::ranges::copy(measures.shares(at, output), std::back_inserter(result.share));
+      std::ranges::copy(measures.shares(at, output), std::back_inserter(result.share.data));
   }
+  result.share.extents = {result.time.size(), study.outputs.size(), study.uncertain.size()};
   result.present = !result.time.empty();
 }
 

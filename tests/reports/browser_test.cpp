@@ -294,15 +294,16 @@ TEST_F(Browser, ChoosesTheTimeOfDistributions) {
   d.time = {results.time[20], results.time[40], results.time[60]};
   d.point = {0, 1, 2};
   const double nan = std::numeric_limits<double>::quiet_NaN();
+  d.value = d.lower = d.upper = Grid({3, 2, 3});
   for (int i = 0; i < 6; ++i) {
-    const bool isKnown = i != 3;
-    d.value.insert(d.value.end(), {isKnown ? 1.0 * i : nan, isKnown ? 1.5 * i + 1 : nan, isKnown ? 2.0 * i + 2 : nan});
-    d.lower.insert(d.lower.end(), {isKnown ? 0.0 : nan, isKnown ? 0.5 : nan, isKnown ? 1.0 : nan});
-    d.upper.insert(d.upper.end(), {isKnown ? 0.0 : nan, isKnown ? 0.75 : nan, isKnown ? 1.0 : nan});
+    if (i == 3) continue;
+    std::ranges::copy(std::array{1.0 * i, 1.5 * i + 1, 2.0 * i + 2}, d.value.row(i / 2, i % 2).begin());
+    std::ranges::copy(std::array{0.0, 0.5, 1.0}, d.lower.row(i / 2, i % 2).begin());
+    std::ranges::copy(std::array{0.0, 0.75, 1.0}, d.upper.row(i / 2, i % 2).begin());
   }
   d.sampled = d.lower;
-  d.gaps = {0.75, 0.75, 0.75, nan, 0.75, 0.75};
-  d.excess = {0, 0, 0, nan, 0, 0};
+  d.gaps = Grid({3, 2}, {0.75, 0.75, 0.75, nan, 0.75, 0.75});
+  d.excess = Grid({3, 2}, {0, 0, 0, nan, 0, 0});
   const std::string last = opened(results);
   EXPECT_THAT(rootOf(last), Not(HasSubstr("data-error")));
   const std::string kind = "<figure class=\"distribution kept\"";

@@ -199,21 +199,26 @@ Results sensitive() {
     if (t <= derivatives.reached) derivatives.time.push_back(t);
     for (std::size_t k = 0; k < outputs * quantities; ++k) {
       const double own = k % quantities == 0 ? 1 - share : share;
-      sensitivity.firstLower.push_back(own - 0.02);
-      sensitivity.firstUpper.push_back(own - 0.01);
-      sensitivity.totalLower.push_back(own - 0.001);
-      sensitivity.totalUpper.push_back(own + 0.001);
-      sensitivity.firstSampled.push_back(own - 0.015);
-      sensitivity.totalSampled.push_back(own + 0.004);
-      sensitivity.firstError.push_back(0.03);
-      sensitivity.totalError.push_back(0.02);
-      sensitivity.pinched.push_back(i % 20 == 0 ? 0.9 * own : std::nan(""));
-      influence.share.push_back(own);
+      sensitivity.first.lower.data.push_back(own - 0.02);
+      sensitivity.first.upper.data.push_back(own - 0.01);
+      sensitivity.total.lower.data.push_back(own - 0.001);
+      sensitivity.total.upper.data.push_back(own + 0.001);
+      sensitivity.firstSampled.data.push_back(own - 0.015);
+      sensitivity.totalSampled.data.push_back(own + 0.004);
+      sensitivity.firstError.data.push_back(0.03);
+      sensitivity.totalError.data.push_back(0.02);
+      sensitivity.pinched.data.push_back(i % 20 == 0 ? 0.9 * own : std::nan(""));
+      influence.share.data.push_back(own);
       if (t > derivatives.reached) continue;
-      derivatives.lower.push_back(3 * own);
-      derivatives.upper.push_back(4 * own);
+      derivatives.lower.data.push_back(3 * own);
+      derivatives.upper.data.push_back(4 * own);
     }
   }
+  for (Grid* grid :
+       {&sensitivity.first.lower, &sensitivity.first.upper, &sensitivity.total.lower, &sensitivity.total.upper,
+        &sensitivity.firstSampled, &sensitivity.totalSampled, &sensitivity.firstError, &sensitivity.totalError,
+        &sensitivity.pinched, &influence.share, &derivatives.lower, &derivatives.upper})
+    grid->extents = {grid->data.size() / (outputs * quantities), outputs, quantities};
   return results;
 }
 

@@ -101,7 +101,7 @@ TEST(OwnShapes, AreSampledBoundedAndCut) {
   EXPECT_THAT(shapeText(results, quantity, ShapeKind::membership), HasSubstr("tent (on "));
   ASSERT_TRUE(results.distribution.present);
   EXPECT_EQ(results.distribution.why, "");
-  for (const double excess : results.distribution.excess) EXPECT_LE(excess, results.distribution.band);
+  for (const double excess : results.distribution.excess.data) EXPECT_LE(excess, results.distribution.band);
   EXPECT_FALSE(results.fuzzy.outer.empty());
 }
 

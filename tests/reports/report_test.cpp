@@ -233,10 +233,10 @@ TEST(Report, DrawsNoDistributionOfWhatIsOneValueButForRoundings) {
   d.time = {3};
   d.point = {0, 1, 2};
   const double none = std::nan("");
-  d.value = {1, 1 + 1e-15, none, 0, 1, 2};
-  d.lower = d.upper = d.sampled = {0, 1, none, 0, 0.5, 1};
-  d.gaps = {0, 0.5};
-  d.excess = {0, 0};
+  d.value = Grid({1, 2, 3}, {1, 1 + 1e-15, none, 0, 1, 2});
+  d.lower = d.upper = d.sampled = Grid({1, 2, 3}, {0, 1, none, 0, 0.5, 1});
+  d.gaps = Grid({1, 2}, {0, 0.5});
+  d.excess = Grid({1, 2}, {0, 0});
   const std::string page = renderReport(results);
   EXPECT_THAT(page, HasSubstr("one value, to a billionth of the greatest, at 3 s"));
   EXPECT_THAT(page, Not(HasSubstr("Plot of the distribution function of " + results.outputs[0].name)));
@@ -250,10 +250,10 @@ TEST(Report, CaptionsOfWhereNoTimePassesNameNone) {
   d.time = {0};
   d.point = {0, 1, 2};
   const double none = std::nan("");
-  d.value = {1, 1 + 1e-15, none, none, none, none};
-  d.lower = d.upper = d.sampled = {0, 1, none, none, none, none};
-  d.gaps = {0, none};
-  d.excess = {0, 0};
+  d.value = Grid({1, 2, 3}, {1, 1 + 1e-15, none, none, none, none});
+  d.lower = d.upper = d.sampled = Grid({1, 2, 3}, {0, 1, none, none, none, none});
+  d.gaps = Grid({1, 2}, {0, none});
+  d.excess = Grid({1, 2}, {0, 0});
   const std::string page = renderReport(results);
   EXPECT_THAT(page, HasSubstr("one value, to a billionth of the greatest<"));
   EXPECT_THAT(page, HasSubstr("nothing is known<"));
@@ -410,14 +410,15 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Report, SaysHowAlphaCutsAreMeantAndWhereSamplesLieInThem) {
   Results results = example::pendulum();
-  results.fuzzy.transformation.gap.assign(results.fuzzy.alpha.size() * results.outputs.size(), 0.0123);
+  Grid& gaps = results.fuzzy.transformation.gap = Grid({results.fuzzy.alpha.size(), results.outputs.size()});
+  std::ranges::fill(gaps.data, 0.0123);
   results.stochastic.alphaPoints = 77;
   EXPECT_THAT(
       renderReport(results),
       AllOf(HasSubstr("placed by the extended transformation method after Hanss (2 corners and 77 points inside "
                       "the cuts); they leave 1.3 % of the widest proved cut at most."),
             HasSubstr("is the least of theirs (minimum t-norm), and no quantity restricts another.")));
-  for (double& gap : results.fuzzy.transformation.gap) gap = 2.8e-14;
+  std::ranges::fill(gaps.data, 2.8e-14);
   EXPECT_THAT(renderReport(results), HasSubstr("inside the cuts); they reach the ends of every proved cut."));
 }
 

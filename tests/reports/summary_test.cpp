@@ -153,10 +153,11 @@ TEST(TextSummary, SaysHowFarSamplesFillTheCuts) {
   TransformationResult& t = results.fuzzy.transformation;
   t.present = true;
   t.method = "reduced";
-  t.gap.assign(results.fuzzy.alpha.size() * results.outputs.size(), 0.0123);
-  t.gapTime.assign(t.gap.size(), 0.01);
+  t.gap = t.gapTime = Grid({results.fuzzy.alpha.size(), results.outputs.size()});
+  std::ranges::fill(t.gap.data, 0.0123);
+  std::ranges::fill(t.gapTime.data, 0.01);
   EXPECT_THAT(textSummary(results), HasSubstr("; they leave 1.3 % of the widest proved cut at most (tip height, "));
-  t.gap.assign(t.gap.size(), 2.8e-14);
+  std::ranges::fill(t.gap.data, 2.8e-14);
   EXPECT_THAT(textSummary(results), HasSubstr("; they reach the ends of every proved cut\n"));
 }
 
@@ -170,7 +171,7 @@ Results boundedResults(double gap) {
   d.wanted = 0.005;
   d.gap = gap;
   d.time = {0.01};
-  d.gaps.assign(results.outputs.size(), gap);
+  d.gaps = Grid({1, results.outputs.size()}, std::vector(results.outputs.size(), gap));
   return results;
 }
 
@@ -182,7 +183,7 @@ TEST(TextSummary, SaysHowCloseBoundsOfProbabilitiesAre) {
   EXPECT_THAT(textSummary(results),
               HasSubstr(" at 1 time (0.005 is aimed at: the work that limits.probabilities allows "
                         "is done)\n"));
-  d.gaps = {0.00195, 0.0389};
+  d.gaps = Grid({1, 2}, {0.00195, 0.0389});
   results.outputs.resize(2, results.outputs.front());
   results.outputs[1].name = "tip at its peak";
   EXPECT_THAT(
@@ -207,7 +208,7 @@ TEST(TextSummary, TellsMarginsWhereTheirRequirementAsksForThem) {
 TEST(TextSummary, SaysOfHowManyDistributionsNothingIsKnown) {
   Results results = boundedResults(0.0389);
   DistributionResult& d = results.distribution;
-  d.gaps[0] = 1;
+  d.gaps(0, 0) = 1;
   d.gap = 1;
   d.why = "the enclosure is not tight enough";
   EXPECT_THAT(
@@ -215,7 +216,7 @@ TEST(TextSummary, SaysOfHowManyDistributionsNothingIsKnown) {
       HasSubstr(fmt::format("  probabilities: nothing is known of 1 of {} distributions; of the others bounds 0.039 "
                             "apart at most, at 1 time (0.005 is aimed at: the enclosure is not tight enough)\n",
                             results.outputs.size())));
-  d.gaps.assign(results.outputs.size(), std::numeric_limits<double>::quiet_NaN());
+  d.gaps = Grid({1, results.outputs.size()});
   EXPECT_THAT(textSummary(results),
               HasSubstr("  probabilities: nothing is known of them: the enclosure is not tight enough\n"));
 }

@@ -72,20 +72,9 @@ void forEachNumber(Results& results, const std::function<void(const Field&, std:
                              change(field, one);
                              *number = one[0];
                            },
-                           [&](std::vector<double>* numbers) { change(field, *numbers); },
-                           [&](Table* table) { change(field, table->data); },
-                           [&](std::vector<Table>* tables) {
-                             for (Table& table : *tables) change(field, table.data);
-                           },
-                           [&](Envelope* envelope) {
-                             change(field, envelope->lower.data);
-                             change(field, envelope->upper.data);
-                           },
-                           [&](std::vector<Envelope>* envelopes) {
-                             for (Envelope& envelope : *envelopes) {
-                               change(field, envelope.lower.data);
-                               change(field, envelope.upper.data);
-                             }
+                           [&](const Numbers& numbers) {
+                             for (std::size_t end = 0; end < numbers.ends().size(); ++end)
+                               for (std::vector<double>* list : numbers.lists(end)) change(field, *list);
                            },
                            [](auto) {}},
                    field.value);

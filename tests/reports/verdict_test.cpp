@@ -282,10 +282,10 @@ Results withShares(double excess) {
   d.band = 0.0212;
   d.time = {results.time[20]};
   d.point = {0, 1};
-  d.value = {0, 1, 0, 1};
-  d.lower = d.sampled = d.upper = {0, 1, 0, 1};
-  d.gaps = {0, 0};
-  d.excess = {0, excess};
+  d.value = Grid({1, 2, 2}, {0, 1, 0, 1});
+  d.lower = d.sampled = d.upper = d.value;
+  d.gaps = Grid({1, 2}, {0, 0});
+  d.excess = Grid({1, 2}, {0, excess});
   return results;
 }
 

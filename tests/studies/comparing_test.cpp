@@ -27,7 +27,7 @@ Results sound() {
   Results results = sampleResults();
   results.comparison.disputed.clear();
   results.requirements[1].margin = 1;
-  results.distribution.gaps[0] = 0.5;
+  results.distribution.gaps(0, 0) = 0.5;
   for (double& error : results.stochastic.error.data) error = 1e-12;
   return results;
 }
@@ -54,8 +54,8 @@ TEST_P(DifferenceOf, IsTheWordExpectedInBothOrders) {
 
 /// The distribution function of output 1 at the only time: its last value's bounds.
 void bound(Results& results, double lower, double upper) {
-  results.distribution.lower[5] = lower;
-  results.distribution.upper[5] = upper;
+  results.distribution.lower(0, 1, 2) = lower;
+  results.distribution.upper(0, 1, 2) = upper;
 }
 
 void move(Envelope& bounds, double by) {
@@ -90,12 +90,13 @@ INSTANTIATE_TEST_SUITE_P(
                "agree"},
         Change{"distributions apart", [](Results& r) { bound(r, 0.9, 1); }, "error"},
         Change{"distributions that touch", [](Results& r) { bound(r, 0.875, 0.875); }, "agree"},
-        Change{"means apart", [](Results& r) { r.sensitivity.meanLower[0] = r.sensitivity.meanUpper[0] = 1.75; },
+        Change{"means apart",
+               [](Results& r) { r.sensitivity.mean.lower.data[0] = r.sensitivity.mean.upper.data[0] = 1.75; }, "error"},
+        Change{"indices apart",
+               [](Results& r) { r.sensitivity.first.lower.data[0] = r.sensitivity.first.upper.data[0] = 0.25; },
                "error"},
-        Change{"indices apart", [](Results& r) { r.sensitivity.firstLower[0] = r.sensitivity.firstUpper[0] = 0.25; },
-               "error"},
-        Change{"total indices apart", [](Results& r) { r.sensitivity.totalLower[0] = r.sensitivity.totalUpper[0] = 1; },
-               "error"},
+        Change{"total indices apart",
+               [](Results& r) { r.sensitivity.total.lower.data[0] = r.sensitivity.total.upper.data[0] = 1; }, "error"},
         Change{"a requirement met and violated",
                [](Results& r) { r.requirements[0].word = Decision::violated, r.requirements[0].met = 0; }, "error"},
         Change{"a requirement met and violated for some",
@@ -116,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"an alpha-cut of nearly no width", [](Results& r) { r.fuzzy.outer[2].upper(1, 0) += 1e-3; }, "agree"},
         Change{"without bounds",
                [](Results& r) { r.interval.at.upper(1, 0) = std::numeric_limits<double>::infinity(); }, "worse"},
-        Change{"a wider gap", [](Results& r) { r.distribution.gaps[0] = 0.8; }, "worse"},
+        Change{"a wider gap", [](Results& r) { r.distribution.gaps(0, 0) = 0.8; }, "worse"},
         Change{"shorter", [](Results& r) { r.interval.reached = 0.005; }, "worse"},
         Change{"a requirement not met any more",
                [](Results& r) {

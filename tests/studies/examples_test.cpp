@@ -45,7 +45,7 @@ void expectNestedCuts(const FuzzyResult& fuzzy) {
 /// Of all outputs at all levels and times.
 double greatestGap(const FuzzyResult& fuzzy) {
   double greatest = -1;
-  for (const double gap : fuzzy.transformation.gap) greatest = std::fmax(greatest, gap);
+  for (const double gap : fuzzy.transformation.gap.data) greatest = std::fmax(greatest, gap);
   EXPECT_GE(greatest, 0);
   return greatest;
 }

@@ -68,15 +68,15 @@ TEST(Probabilities, HoldTheSharesOfSamples) {
     const double surely = std::sqrt(std::log(2 / 1e-9) / (2.0 * 4096));
     EXPECT_LT(distribution.band, surely);
     EXPECT_GT(distribution.band, 0.5 * surely / 3);
-    ASSERT_EQ(distribution.excess.size(), 6U);
-    for (const double excess : distribution.excess) {
+    ASSERT_EQ(distribution.excess.data.size(), 6U);
+    for (const double excess : distribution.excess.data) {
       EXPECT_GE(excess, 0);
       EXPECT_LE(excess, surely);
     }
-    for (std::size_t i = 0; i < distribution.value.size(); ++i)
-      if (!std::isnan(distribution.value[i])) {
-        EXPECT_LE(distribution.lower[i], distribution.sampled[i] + surely);
-        EXPECT_GE(distribution.upper[i], distribution.sampled[i] - surely);
+    for (std::size_t i = 0; i < distribution.value.data.size(); ++i)
+      if (!std::isnan(distribution.value.data[i])) {
+        EXPECT_LE(distribution.lower.data[i], distribution.sampled.data[i] + surely);
+        EXPECT_GE(distribution.upper.data[i], distribution.sampled.data[i] - surely);
       }
     // The motion does not depend on the mass; all of the variance is the others'.
     const SensitivityResult& sensitivity = results.sensitivity;
@@ -84,12 +84,13 @@ TEST(Probabilities, HoldTheSharesOfSamples) {
     const std::size_t mass = isAngleLast ? 1 : 2;
     for (std::size_t cell = 0; cell < 12; ++cell) {
       if (cell == 0) continue;  // the angle at the start is the uncertain one itself
-      EXPECT_LT(sensitivity.totalUpper[cell * 3 + mass], 1e-4);
+      EXPECT_LT(sensitivity.total.upper.data[cell * 3 + mass], 1e-4);
       double least = 0;
-      for (std::size_t q = 0; q < 3; ++q) least += sensitivity.totalLower[cell * 3 + q];
+      for (std::size_t q = 0; q < 3; ++q) least += sensitivity.total.lower.data[cell * 3 + q];
       EXPECT_GT(least, 0.999);
-      EXPECT_NEAR(results.stochastic.mean.data[cell], 0.5 * (sensitivity.meanLower[cell] + sensitivity.meanUpper[cell]),
-                  6 * sensitivity.deviationUpper[cell] / 64);
+      EXPECT_NEAR(results.stochastic.mean.data[cell],
+                  0.5 * (sensitivity.mean.lower.data[cell] + sensitivity.mean.upper.data[cell]),
+                  6 * sensitivity.deviation.upper.data[cell] / 64);
     }
   }
 }
@@ -107,11 +108,11 @@ TEST(Probabilities, HoldForDependentQuantities) {
     EXPECT_GT(distribution.gap, gap);  // less is known of them
     gap = distribution.gap;
     const double surely = std::sqrt(std::log(2 / 1e-9) / (2.0 * 4096));
-    for (const double excess : distribution.excess) EXPECT_LE(excess, surely);
+    for (const double excess : distribution.excess.data) EXPECT_LE(excess, surely);
     EXPECT_NE(results.sensitivity.why, "");
-    EXPECT_THAT(results.sensitivity.firstLower, Each(::testing::IsNan()));
+    EXPECT_THAT(results.sensitivity.first.lower.data, Each(::testing::IsNan()));
     EXPECT_GT(
-        *std::ranges::max_element(results.sensitivity.pinched, {}, [](double x) { return std::isnan(x) ? 0 : x; }),
+        *std::ranges::max_element(results.sensitivity.pinched.data, {}, [](double x) { return std::isnan(x) ? 0 : x; }),
         0.5);
     const KeptSamples& kept = results.stochastic.kept;
     ASSERT_GE(kept.number.size(), 4096U);
@@ -169,7 +170,7 @@ TEST(Probabilities, AreKeptInTheFile) {
   Results results = run(asked("[distribution]\ntimes = 2\n"));
   writeResults(results, folder.path("r.h5"));
   EXPECT_THAT(differences(results, readResults(folder.path("r.h5"))), IsEmpty());
-  results.distribution.lower[1] = 2;
+  results.distribution.lower.data[1] = 2;
   writeResults(results, folder.path("wrong.h5"));
   EXPECT_ANY_THROW(readResults(folder.path("wrong.h5")));
 }
@@ -205,10 +206,10 @@ TEST(Derivatives, HoldWhatOutputsChangeBy) {
     for (std::size_t row = 0; row < derivatives.time.size(); ++row)
       for (std::size_t k = 0; k < 2; ++k) {
         const double change = (above[row * 2 + k] - below[row * 2 + k]) / width(range), error = 1e-8 / width(range);
-        const std::size_t i = (row * 2 + k) * nominal.size() + q;
-        EXPECT_LE(derivatives.lower[i], change + error) << row << ' ' << k << ' ' << q;
-        EXPECT_GE(derivatives.upper[i], change - error) << row << ' ' << k << ' ' << q;
-        EXPECT_LE(derivatives.upper[i] - derivatives.lower[i], 0.2 * (1 + std::fabs(change)));
+        const double lower = derivatives.lower(row, k, q), upper = derivatives.upper(row, k, q);
+        EXPECT_LE(lower, change + error) << row << ' ' << k << ' ' << q;
+        EXPECT_GE(upper, change - error) << row << ' ' << k << ' ' << q;
+        EXPECT_LE(upper - lower, 0.2 * (1 + std::fabs(change)));
       }
   }
 }
@@ -217,9 +218,9 @@ TEST(Derivatives, HoldWhatOutputsChangeBy) {
 TEST(Sensitivities, RankByPinchingAndByInfluence) {
   const Results results = run(asked("[distribution]\ntimes = [0.5]\n"));
   const SensitivityResult& s = results.sensitivity;
-  const std::size_t at = s.time.size() - 1, quantities = results.uncertain.size();
+  const std::size_t at = s.time.size() - 1;
   ASSERT_EQ(s.time.back(), 0.5);
-  const auto pinched = [&](std::size_t q) { return s.pinched[(at * 2 + 0) * quantities + q]; };
+  const auto pinched = [&](std::size_t q) { return s.pinched(at, 0, q); };
   std::vector<std::size_t> of(3);
   for (std::size_t q = 0; q < 3; ++q)
     of[results.uncertain[q].name == "start" ? 0 : results.uncertain[q].name == "length" ? 1 : 2] = q;
@@ -229,9 +230,9 @@ TEST(Sensitivities, RankByPinchingAndByInfluence) {
   EXPECT_NEAR(pinched(of[0]) + pinched(of[1]), 1, 0.1);  // nearly a sum
   const InfluenceResult& influence = results.fuzzy.influence;
   ASSERT_TRUE(influence.present);
-  const std::size_t last = (influence.time.size() - 1) * 2 * quantities;
-  EXPECT_NEAR(influence.share[last + of[0]] + influence.share[last + of[1]], 1, 1e-6);
-  EXPECT_NEAR(influence.share[last + of[2]], 0, 1e-6);
+  const std::span<const double> last = influence.share.row(influence.time.size() - 1, 0);
+  EXPECT_NEAR(last[of[0]] + last[of[1]], 1, 1e-6);
+  EXPECT_NEAR(last[of[2]], 0, 1e-6);
 }
 
 }  // namespace

@@ -98,8 +98,13 @@ inline Results sampleResults() {
   r.fuzzy.outer = {sampleBounds(3, 2, 0.1, 1), sampleBounds(3, 2, 0.3, 0.6), sampleBounds(3, 2, 0.6, 0)};
   r.fuzzy.inner = {sampleBounds(3, 2, 0.2, 0.8), sampleBounds(3, 2, 0.4, 0.4), sampleBounds(3, 2, 0.6, 0)};
   r.fuzzy.cpu = 0.125;
-  r.fuzzy.transformation = {true, "extended", {0}, {0.25}, {0, 0.1, 0.2, 0.3, nan, 0.5}, {0, 0.01, 0.02, 0, nan, 0.01}};
-  r.fuzzy.influence = {true, {0, 0.02}, {0.5, nan, 1, 0.25}};
+  r.fuzzy.transformation = {true,
+                            "extended",
+                            {0},
+                            {0.25},
+                            Grid({3, 2}, {0, 0.1, 0.2, 0.3, nan, 0.5}),
+                            Grid({3, 2}, {0, 0.01, 0.02, 0, nan, 0.01})};
+  r.fuzzy.influence = {true, {0, 0.02}, Grid({2, 2, 1}, {0.5, nan, 1, 0.25})};
   r.comparison.present = true;
   r.comparison.verdict = Agreement::incomplete;
   r.comparison.why = "the run was interrupted";
@@ -162,33 +167,33 @@ inline Results sampleResults() {
   d.band = 0.02;
   d.time = {0.01};
   d.point = {0, 1, 2};
-  d.value = {-1, 2, nan, 0.5, 0.75, 1};
-  d.lower = {0, 1, nan, 0, 0.25, 0.5};
-  d.upper = {0, 1, nan, 0.25, 0.75, 0.875};
-  d.sampled = {nan, nan, nan, 0, 0.375, 0.75};
-  d.gaps = {1, 0.75};
-  d.excess = {nan, 0.0078125};
+  d.value = Grid({1, 2, 3}, {-1, 2, nan, 0.5, 0.75, 1});
+  d.lower = Grid({1, 2, 3}, {0, 1, nan, 0, 0.25, 0.5});
+  d.upper = Grid({1, 2, 3}, {0, 1, nan, 0.25, 0.75, 0.875});
+  d.sampled = Grid({1, 2, 3}, {nan, nan, nan, 0, 0.375, 0.75});
+  d.gaps = Grid({1, 2}, {1, 0.75});
+  d.excess = Grid({1, 2}, {nan, 0.0078125});
   SensitivityResult& s = r.sensitivity;
   s.present = true;
   s.time = {0.005, 0.01};
-  s.meanLower = {1, 2, nan, 0.5};
-  s.meanUpper = {1.5, 2, nan, 0.625};
-  s.deviationLower = {0.25, 0, nan, 0.125};
-  s.deviationUpper = {0.25, 0.5, nan, 0.125};
-  s.firstLower = s.totalLower = {0.5, 0, nan, 0.25};
-  s.firstUpper = s.totalUpper = {0.75, 1, nan, 0.5};
-  s.pinched = {0.5, nan, 0.125, 1};
+  s.mean.lower = Grid({2, 2}, {1, 2, nan, 0.5});
+  s.mean.upper = Grid({2, 2}, {1.5, 2, nan, 0.625});
+  s.deviation.lower = Grid({2, 2}, {0.25, 0, nan, 0.125});
+  s.deviation.upper = Grid({2, 2}, {0.25, 0.5, nan, 0.125});
+  s.first.lower = s.total.lower = Grid({2, 2, 1}, {0.5, 0, nan, 0.25});
+  s.first.upper = s.total.upper = Grid({2, 2, 1}, {0.75, 1, nan, 0.5});
+  s.pinched = Grid({2, 2, 1}, {0.5, nan, 0.125, 1});
   s.samples = 256;
-  s.firstSampled = s.totalSampled = {0.625, nan, nan, 0.5};
-  s.firstError = s.totalError = {0.03125, nan, nan, 0.25};
+  s.firstSampled = s.totalSampled = Grid({2, 2, 1}, {0.625, nan, nan, 0.5});
+  s.firstError = s.totalError = Grid({2, 2, 1}, {0.03125, nan, nan, 0.25});
   DerivativeResult& derivatives = r.of<DerivativeResult>();
   derivatives.present = true;
   derivatives.reached = 0.01;
   derivatives.why = derivatives.stopped = "the run was interrupted";
   derivatives.cpu = 0.75;
   derivatives.time = {0, 0.01};
-  derivatives.lower = {1, nan, -2, 0.25};
-  derivatives.upper = {1.5, nan, -1, 0.5};
+  derivatives.lower = Grid({2, 2, 1}, {1, nan, -2, 0.25});
+  derivatives.upper = Grid({2, 2, 1}, {1.5, nan, -1, 0.5});
   SurrogateResult& polynomials = r.surrogate;
   polynomials.present = true;
   polynomials.centre = {1};

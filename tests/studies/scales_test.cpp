@@ -68,8 +68,8 @@ quantity = "3*sin(hinge.angle)*sin(hinge.angle) + 3*cos(hinge.angle)*cos(hinge.a
   EXPECT_LT(results.comparison.maximum, 1.1);
   EXPECT_EQ(results.interval.shortfall, "");
   EXPECT_LT(results.distribution.gap, 0.1);
-  for (std::size_t i = 0; i < results.fuzzy.transformation.gap.size(); ++i)
-    EXPECT_EQ(std::isnan(results.fuzzy.transformation.gap[i]) || i % 4 < 2, true) << i;
+  for (std::size_t i = 0; i < results.fuzzy.transformation.gap.data.size(); ++i)
+    EXPECT_EQ(std::isnan(results.fuzzy.transformation.gap.data[i]) || i % 4 < 2, true) << i;
 }
 
 TEST(Scales, ThatAreStatedLeaveOutWhatIsBelow) {

@@ -117,13 +117,13 @@ TEST(Surrogates, AgreeWithBoundsOfProbabilities) {
     const double error = *std::ranges::max_element(all.errors);
     const double band = std::sqrt(std::log(2 / 1e-9) / (2.0 * count));
     const DistributionResult& d = results.distribution;
-    const std::size_t begin = d.begin(0, output, 2);
-    for (std::size_t i = begin; i < begin + d.point.size() && !std::isnan(d.value[i]); ++i) {
+    const std::span<const double> values = d.values(0, output);
+    for (std::size_t i = 0; i < values.size(); ++i) {
       const auto share = [&](double value) {
         return static_cast<double>(std::ranges::upper_bound(all.outputs, value) - all.outputs.begin()) / count;
       };
-      EXPECT_LE(d.lower[i], share(d.value[i] + error) + band) << d.value[i];
-      EXPECT_GE(d.upper[i], share(d.value[i] - error) - band) << d.value[i];
+      EXPECT_LE(d.lower(0, output, i), share(values[i] + error) + band) << values[i];
+      EXPECT_GE(d.upper(0, output, i), share(values[i] - error) - band) << values[i];
     }
   }
 }
@@ -146,7 +146,7 @@ TEST(Surrogates, AgreeWithBoundsOfSobolIndices) {
   const std::vector<double> ofB = outputsOf(b);
   const SensitivityResult& s = results.sensitivity;
   const std::size_t cell = (s.time.size() - 1) * 2 + 1;
-  const double mean = 0.5 * (s.meanLower[cell] + s.meanUpper[cell]);
+  const double mean = 0.5 * (s.mean.lower.data[cell] + s.mean.upper.data[cell]);
   for (std::size_t q = 0; q < n; ++q) {
     std::vector<double> mixed = a.values;
     for (std::size_t i = q; i < mixed.size(); i += n) mixed[i] = b[i];
@@ -172,15 +172,15 @@ TEST(Surrogates, AgreeWithBoundsOfSobolIndices) {
       EXPECT_GE(upper, middle - error) << q;
       EXPECT_LE(upper - lower, 0.01) << q;
     };
-    expectMeets(s.firstLower[cell * n + q], s.firstUpper[cell * n + q], first);
-    expectMeets(s.totalLower[cell * n + q], s.totalUpper[cell * n + q], total);
+    expectMeets(s.first.lower.data[cell * n + q], s.first.upper.data[cell * n + q], first);
+    expectMeets(s.total.lower.data[cell * n + q], s.total.upper.data[cell * n + q], total);
     // And the estimates that the results hold, within three times their intervals.
     const std::size_t i = cell * n + q;
-    EXPECT_LE(s.firstLower[i], s.firstSampled[i] + 3 * s.firstError[i]) << q;
-    EXPECT_GE(s.firstUpper[i], s.firstSampled[i] - 3 * s.firstError[i]) << q;
-    EXPECT_LE(s.totalLower[i], s.totalSampled[i] + 3 * s.totalError[i]) << q;
-    EXPECT_GE(s.totalUpper[i], s.totalSampled[i] - 3 * s.totalError[i]) << q;
-    EXPECT_LT(s.firstError[i] + s.totalError[i], 0.1) << q;
+    EXPECT_LE(s.first.lower.data[i], s.firstSampled.data[i] + 3 * s.firstError.data[i]) << q;
+    EXPECT_GE(s.first.upper.data[i], s.firstSampled.data[i] - 3 * s.firstError.data[i]) << q;
+    EXPECT_LE(s.total.lower.data[i], s.totalSampled.data[i] + 3 * s.totalError.data[i]) << q;
+    EXPECT_GE(s.total.upper.data[i], s.totalSampled.data[i] - 3 * s.totalError.data[i]) << q;
+    EXPECT_LT(s.firstError.data[i] + s.totalError.data[i], 0.1) << q;
   }
 }
 

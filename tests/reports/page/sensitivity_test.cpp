@@ -49,8 +49,7 @@ TEST(SensitivitySection, HasEstimatesWithTheirIntervalsBesideWhatIsProved) {
   EXPECT_THAT(text, AllOf(HasSubstr("0.6989 to 0.7010 (0.704 ± 0.020)"), HasSubstr("0.679 to 0.690 (0.685 ± 0.030)"),
                           HasSubstr("from 8192 independent samples")));
   Results results = example::sensitive();
-  results.sensitivity.totalSampled.clear();
-  results.sensitivity.firstSampled.clear();
+  results.sensitivity.totalSampled = results.sensitivity.firstSampled = {};
   EXPECT_THAT(sensitivities(results), AllOf(Not(HasSubstr("estimate\"")), Not(HasSubstr("independent samples"))));
 }
 
@@ -92,8 +91,8 @@ TEST(SensitivitySection, SaysWhyThereAreNoIndices) {
 
 TEST(SensitivitySection, DrawsEstimatesWhereNothingIsProved) {
   Results results = example::sensitive();
-  for (double& x : results.sensitivity.totalLower) x = 0;
-  for (double& x : results.sensitivity.totalUpper) x = 1;
+  for (double& x : results.sensitivity.total.lower.data) x = 0;
+  for (double& x : results.sensitivity.total.upper.data) x = 1;
   const std::string text = sensitivities(results);
   EXPECT_THAT(text, HasSubstr("about 0.704 ± 0.020"));
   EXPECT_EQ(count(text, "<path class=\"cause0\""), 4u);  // first-order index and derivative, two outputs
@@ -105,10 +104,9 @@ TEST(SensitivitySection, IsATableWhereNothingMoves) {
   s.present = true;
   s.time = {0};
   results.uncertain.push_back(results.uncertain[0]);
-  s.totalLower = {0.5, 0.7, 0.5, 0.7};
-  s.totalUpper = {0.5, 0.8, 0.5, 0.8};
-  s.firstLower = s.totalLower;
-  s.firstUpper = s.totalUpper;
+  s.total.lower = Grid({1, 2, 2}, {0.5, 0.7, 0.5, 0.7});
+  s.total.upper = Grid({1, 2, 2}, {0.5, 0.8, 0.5, 0.8});
+  s.first = s.total;
   const std::string text = sensitivities(results);
   EXPECT_THAT(text, AllOf(HasSubstr("<caption>All that is known</caption>"), HasSubstr("<td>0.69 to 0.81</td>"),
                           Not(HasSubstr("<svg")), Not(HasSubstr("<details class=\"more wide\""))));
@@ -118,11 +116,11 @@ TEST(SensitivitySection, HasNoDigitsOfHardlyAnyShare) {
   Results results = example::sensitive();
   SensitivityResult& s = results.sensitivity;
   const std::size_t quantities = results.uncertain.size(), behindStart = results.outputs.size() * quantities;
-  for (std::size_t i = behindStart; i < s.totalLower.size(); i += quantities) {  // of the first quantity
-    s.totalLower[i] = 0;
-    s.totalUpper[i] = 6.6e-30;
-    s.totalSampled[i] = -0.000013;
-    s.totalError[i] = 0.000085;
+  for (std::size_t i = behindStart; i < s.total.lower.data.size(); i += quantities) {  // of the first quantity
+    s.total.lower.data[i] = 0;
+    s.total.upper.data[i] = 6.6e-30;
+    s.totalSampled.data[i] = -0.000013;
+    s.totalError.data[i] = 0.000085;
   }
   const std::string text = sensitivities(results);
   EXPECT_THAT(text, AllOf(HasSubstr("<td>less than 0.0001 (0.0000 ± 0.0001)</td>"), Not(HasSubstr("to 6.6"))));
@@ -135,10 +133,9 @@ TEST(SensitivitySection, RoundsProvedSharesOutward) {
   s.present = true;
   s.time = {0};
   results.uncertain.push_back(results.uncertain[0]);
-  s.totalLower = {1.0 / 3, 0.25 - 1e-13, 1.0 / 3, 0.25 - 1e-13};
-  s.totalUpper = {1.0 / 3, 0.35 + 1e-13, 1.0 / 3, 0.35 + 1e-13};
-  s.firstLower = s.totalLower;
-  s.firstUpper = s.totalUpper;
+  s.total.lower = Grid({1, 2, 2}, {1.0 / 3, 0.25 - 1e-13, 1.0 / 3, 0.25 - 1e-13});
+  s.total.upper = Grid({1, 2, 2}, {1.0 / 3, 0.35 + 1e-13, 1.0 / 3, 0.35 + 1e-13});
+  s.first = s.total;
   EXPECT_THAT(sensitivities(results), AllOf(HasSubstr("<td>0.3333 to 0.3334</td>"), HasSubstr("<td>0.24 to 0.36</td>"),
                                             Not(HasSubstr("about 0.25"))));
 }
@@ -146,8 +143,8 @@ TEST(SensitivitySection, RoundsProvedSharesOutward) {
 /// Per degree a derivative is less than per radian; what is drawn, times half the interval, is the same.
 TEST(SensitivitySection, TellsDerivativesPerUnitThatTheStudyStates) {
   Results results = example::sensitive();
-  results.of<DerivativeResult>().lower.assign(results.of<DerivativeResult>().lower.size(), 180);
-  results.of<DerivativeResult>().upper.assign(results.of<DerivativeResult>().upper.size(), 270);
+  std::ranges::fill(results.of<DerivativeResult>().lower.data, 180);
+  std::ranges::fill(results.of<DerivativeResult>().upper.data, 270);
   const std::string si = sensitivities(results);
   EXPECT_THAT(si, HasSubstr("180 to 270 rad per rad"));
   results.uncertain[0].told = "deg";
@@ -169,11 +166,11 @@ TEST(SensitivitySection, LeavesOutWhatSaysNothing) {
   results = example::sensitive();
   results.uncertain.pop_back();
   SensitivityResult& s = results.sensitivity;
-  for (std::vector<double>* numbers :
-       {&s.firstLower, &s.firstUpper, &s.totalLower, &s.totalUpper, &s.firstSampled, &s.firstError, &s.totalSampled,
-        &s.totalError, &s.pinched, &results.of<DerivativeResult>().lower, &results.of<DerivativeResult>().upper,
-        &results.fuzzy.influence.share})
-    numbers->resize(numbers->size() / 2);
+  for (Grid* numbers : {&s.first.lower, &s.first.upper, &s.total.lower, &s.total.upper, &s.firstSampled, &s.firstError,
+                        &s.totalSampled, &s.totalError, &s.pinched, &results.of<DerivativeResult>().lower,
+                        &results.of<DerivativeResult>().upper, &results.fuzzy.influence.share})
+    *numbers = Grid({numbers->extents[0], numbers->extents[1], 1},
+                    std::vector(numbers->data.begin(), numbers->data.begin() + std::ssize(numbers->data) / 2));
   const std::string text = sensitivities(results);
   EXPECT_EQ(count(text, "<figure class=\"kept derivative\">"), 2u);
   EXPECT_EQ(count(text, "<figure"), 2u);
@@ -237,9 +234,8 @@ TEST(ProbabilitySection, DrawsMeanAndQuantilesWithTheirConfidence) {
   d.present = true;
   d.time = {3};
   d.point = {0, 1};
-  d.value = {0, 1, 0, 1};
-  d.lower = d.upper = d.sampled = {0, 1, 0, 1};
-  d.gaps = d.excess = {0, 0};
+  d.lower = d.upper = d.sampled = d.value = Grid({1, 2, 2}, {0, 1, 0, 1});
+  d.gaps = d.excess = Grid({1, 2}, {0, 0});
   d.cpu = 4.9312;
   EXPECT_THAT(renderReport(results), AllOf(HasSubstr("4.93 s"), HasSubstr("at 1 time<"))) << "what they cost";
   const std::string folded = sectionOf(results, "probabilities");

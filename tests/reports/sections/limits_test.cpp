@@ -166,8 +166,8 @@ TEST(Report, RanksWhatToMeasureBetterFirst) {
   SensitivityResult& s = results.sensitivity;
   s.present = true;
   s.time = {1, 3};
-  s.totalLower = {0.9, 0.1, 0.2, 0.79};
-  s.totalUpper = {0.9, 0.1, 0.21, 0.8};
+  s.total.lower = Grid({2, 1, 2}, {0.9, 0.1, 0.2, 0.79});
+  s.total.upper = Grid({2, 1, 2}, {0.9, 0.1, 0.21, 0.8});
   const std::string page = renderReport(results);
   EXPECT_THAT(page, HasSubstr("\u201cshoulder angle\u201d at 3 s"));
   EXPECT_LT(page.find("<span>mass</span>"), page.find("<span>first angle</span>"));
@@ -184,14 +184,11 @@ TEST(Report, RanksWhereTheMarginIsLeast) {
   SensitivityResult& s = results.sensitivity;
   s.present = true;
   s.time = {1, 3};
-  const std::size_t outputs = results.outputs.size();
-  s.totalLower.assign(2 * outputs * 2, std::nan(""));
-  s.totalUpper = s.totalLower;
+  s.total = BoundGrids({2, results.outputs.size(), 2});
   for (std::size_t at = 0; at < 2; ++at)
     for (std::size_t q = 0; q < 2; ++q) {
       const double share = at == q ? 0.8 : 0.2;  // the one at 1 s, the other at 3 s
-      s.totalLower[(at * outputs) * 2 + q] = share;
-      s.totalUpper[(at * outputs) * 2 + q] = share;
+      s.total.lower(at, 0, q) = s.total.upper(at, 0, q) = share;
     }
   for (const double time : {1.0, 3.0}) {
     results.requirements[0].word = Decision::partly;

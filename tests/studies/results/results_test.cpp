@@ -40,10 +40,15 @@ void change(const FieldValue& value, const Results& results) {
       Visitor{[](double* x) { *x = other(*x); }, [](std::int64_t* x) { ++*x; }, [](std::uint64_t* x) { *x ^= 1; },
               [](bool* x) { *x = !*x; }, [](std::string* x) { *x += "?"; }, [](WholeText x) { *x.text += "?"; },
               [](Choice x) { *x.value = static_cast<unsigned char>((*x.value + 1) % x.all.size()); },
-              [](std::vector<double>* v) { v->back() = other(v->back()); },
-              [](std::vector<std::int64_t>* v) { ++v->back(); }, [&](Table* t) { *t = bounds.lower; },
-              [&](Envelope* e) { *e = bounds; }, [&](std::vector<Table>* v) { v->back() = bounds.lower; },
-              [&](std::vector<Envelope>* v) { v->assign(levels, bounds); }},
+              [](std::vector<std::int64_t>* v) { ++v->back(); },
+              [&](const Numbers& numbers) {
+                std::visit(Visitor{[](std::vector<double>* v) { v->back() = other(v->back()); },
+                                   [](Grid* g) { g->data.back() = other(g->data.back()); },
+                                   [&](Table* t) { *t = bounds.lower; }, [&](Envelope* e) { *e = bounds; },
+                                   [&](std::vector<Table>* v) { v->back() = bounds.lower; },
+                                   [&](std::vector<Envelope>* v) { v->assign(levels, bounds); }},
+                           numbers.holder());
+              }},
       value);
 }
 
@@ -72,6 +77,20 @@ TEST(Description, TellsAChangeOfEachFieldAndTheFileGivesItBack) {
     }
 }
 
+TEST(Description, GivesBackTheExtentsOfGridsWithoutNumbers) {
+  const TemporaryFolder folder;
+  Results before = sampleResults();
+  DistributionResult& written = before.distribution;
+  written.point.clear();
+  written.value = written.lower = written.upper = Grid({1, 2, 0});
+  written.sampled = written.excess = Grid();
+  writeResults(before, folder.path("r.h5"));
+  const DistributionResult read = readResults(folder.path("r.h5")).distribution;
+  EXPECT_THAT(read.value.extents, ElementsAre(1, 2, 0));
+  EXPECT_THAT(read.values(0, 1), IsEmpty());
+  EXPECT_THAT(read.excess.extents, IsEmpty());  // nothing is there, though places for numbers are
+}
+
 TEST(Description, TellsWhichListsDiffer) {
   Results after = sampleResults();
   after.comparison.disputed.pop_back();
@@ -95,9 +114,9 @@ std::size_t longestGap(const Object& object, const std::vector<Field>& fields, c
   };
   (hold(&known), ...);
   for (const Field& field : fields)
-    std::visit(
-        Visitor{[&](WholeText x) { hold(x.text); }, [&](Choice x) { hold(x.value); }, [&](const auto* x) { hold(x); }},
-        field.value);
+    std::visit(Visitor{[&](WholeText x) { hold(x.text); }, [&](Choice x) { hold(x.value); },
+                       [&](const Numbers& x) { std::visit(hold, x.holder()); }, [&](const auto* x) { hold(x); }},
+               field.value);
   std::size_t longest = 0, run = 0;
   for (const char held : isHeld) longest = std::max(longest, run = held != 0 ? 0 : run + 1);
   return longest;
@@ -163,8 +182,8 @@ std::string layoutTables() {
             "\n\n| name | shape | unit | holds |\n|---|---|---|---|\n";
     for (const Field& field : group.fields(0)) {
       const std::string name(field.name);
-      const bool isPair =
-          std::holds_alternative<Envelope*>(field.value) || std::holds_alternative<std::vector<Envelope>*>(field.value);
+      const auto* numbers = std::get_if<Numbers>(&field.value);
+      const bool isPair = numbers != nullptr && numbers->ends().size() == 2;
       text += "| `" + name + (isPair ? "_lower`, `" + name + "_upper" : "") + "` | " + shapeText(group, field) + " | " +
               std::string(field.unit) + " | " + std::string(field.meaning) + " |\n";
     }

@@ -267,7 +267,7 @@ TEST(Run, ReachesExtremesInsideAlphaCutsByTheTransformationMethod) {
     EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
   }
   const auto lowest = [&](std::size_t of) { return found[of].fuzzy.inner[2].lower(0, 1); };
-  const auto gap = [&](std::size_t of) { return found[of].fuzzy.transformation.gap[2 * 2 + 1]; };
+  const auto gap = [&](std::size_t of) { return found[of].fuzzy.transformation.gap(2, 1); };
   EXPECT_GT(lowest(0), lowest(2) + 1e-3);
   EXPECT_LE(lowest(1), lowest(2));  // with the lines that look for turns
   EXPECT_GT(gap(0), gap(1) + 0.05);
