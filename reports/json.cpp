@@ -324,10 +324,11 @@ std::string jsonSummary(const Results& results, const Finding& finding, const Re
   for (const Answer* answer : results.answers()) cost[std::string(answer->word())] = number(answer->cpu);
   for (const char* what : {"equations", "requirements", "advice"}) {
     const auto found = std::ranges::find(results.costs, what, &CostInfo::what);
-    if (found != results.costs.end())
-      cost[what] = found->cpu;
-    else
-      cost[what] = results.costs.empty() ? Json(nullptr) : Json(0.0);
+    cost[what] = found != results.costs.end() ? Json(found->cpu) : results.costs.empty() ? Json(nullptr) : Json(0.0);
+  }
+  if (results.requirements.present) {
+    Json& of = cost["requirements"];
+    of = results.requirements.cpu + (of.is_null() ? 0.0 : of.get<double>());
   }
   cost["report"] = number(files.reportCpu);
   cost["total"] = number(results.cpu);

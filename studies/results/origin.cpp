@@ -50,8 +50,9 @@ std::vector<Field> fieldsOfStudy(Origin& o) {
 }
 
 std::vector<Field> fieldsOfCost(CostInfo& c) {
-  return {{"what", &c.what, unit::none, "\"equations\" (their recording), \"requirements\" or \"advice\"", {}},
-          {"cpu", &c.cpu, unit::second, "CPU time", {}, allowed::finite}};
+  return {
+      {"what", &c.what, unit::none, "\"equations\" (their recording), \"advice\"; in older files \"requirements\"", {}},
+      {"cpu", &c.cpu, unit::second, "CPU time", {}, allowed::finite}};
 }
 
 std::vector<Field> fieldsOfLibrary(LibraryInfo& l) {

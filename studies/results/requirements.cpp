@@ -180,13 +180,16 @@ std::vector<Field> fieldsOfMargin(MarginInfo& m) {
           {"limit", &m.limit, unit::none, "that number, in the unit of that output", {}}};
 }
 
+std::vector<Field> fieldsOfProof(RequirementsResult& r) { return r.fieldsAnd({}); }
+
 }  // namespace
 
 void describe(std::vector<MarginInfo>& margins, std::vector<Group>& groups) {
   groups.push_back(listOf("/margins", "what requirements limit", "/margins/margin", margins, fieldsOfMargin));
 }
 
-void describe(std::vector<RequirementResult>& requirements, std::vector<Group>& groups) {
+void RequirementsResult::describe(std::vector<Group>& groups) {
+  std::vector<RequirementResult>& requirements = *this;
   groups.push_back(listOf("/requirements", "what the motion is to keep", "/requirements/name", requirements, fieldsOf));
   groups.back().inJson = {{"always", ""},
                           {"margin", ""},
@@ -213,6 +216,7 @@ void describe(std::vector<RequirementResult>& requirements, std::vector<Group>& 
            r.violating <= r.samples && r.estimate.met + r.estimate.violated <= r.estimate.samples &&
            isInterval(r.violationLower, r.violationUpper) && r.from <= r.until;
   };
+  groups.push_back(groupOf("/requirements/proof", "how their proof ended", *this, fieldsOfProof));
 }
 
 }  // namespace gamut

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/results/fields.hpp"
+#include "studies/results/part.hpp"
 
 namespace gamut {
 
@@ -79,7 +79,13 @@ struct MarginInfo {
   bool isNumber = false;      ///< the limit is stated as a number, what lies there is none
 };
 
+/// Of all requirements, as the study states them. The part is not present, though they are there, where nothing was
+/// proved yet, and in files that were written before it was kept.
+struct RequirementsResult final : TimedPart, std::vector<RequirementResult> {
+  std::string title() const override { return "requirements"; }
+  void describe(std::vector<Group>& groups) override;
+};
+
 void describe(std::vector<MarginInfo>& margins, std::vector<Group>& groups);
-void describe(std::vector<RequirementResult>& requirements, std::vector<Group>& groups);
 
 }  // namespace gamut

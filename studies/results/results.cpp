@@ -9,7 +9,7 @@
 namespace gamut {
 
 std::vector<Part*> Results::parts() {
-  std::vector<Part*> parts{&interval, &stochastic, &fuzzy, &comparison, &distribution, &sensitivity};
+  std::vector<Part*> parts{&interval, &stochastic, &fuzzy, &comparison, &requirements, &distribution, &sensitivity};
   for (Boxed<FurtherPart>& part : further) parts.push_back(&*part);
   parts.insert(parts.end(), {&surrogate, &picture});
   return parts;
@@ -27,7 +27,6 @@ std::string FurtherPart::unfinished() const {
 std::vector<Group> describe(Results& results) {
   std::vector<Group> groups;
   describe(static_cast<Origin&>(results), groups);
-  describe(results.requirements, groups);
   describe(results.margins, groups);
   for (Part* part : results.parts()) part->describe(groups);
   return groups;

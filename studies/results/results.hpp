@@ -28,7 +28,7 @@ struct Results : Origin {
   StochasticResult stochastic;
   FuzzyResult fuzzy;
   ComparisonResult comparison;
-  std::vector<RequirementResult> requirements;
+  RequirementsResult requirements;
   std::vector<MarginInfo> margins;  ///< of all of them, one after the other
   DistributionResult distribution;
   SensitivityResult sensitivity;

@@ -209,18 +209,21 @@ std::shared_ptr<const FlowModels> sharpenedModels(const Machine& machine, const 
 /// Does it while there is room, and takes the time of it.
 template <class Prove>
 void proveWhileThereIsRoom(Run& run, Results& results, const Prove& prove) {
-  if (run.study.requirements.empty()) return;
+  RequirementsResult& all = results.requirements;
+  if (all.empty()) return;
   run.watch.begin(Watch::Stage::rest);
-  double cpu = 0;
+  all.present = true;
   const auto task = [&] {
-    const Charge charge(nullptr, &cpu);
+    const Charge charge(nullptr, &all.cpu);
     prove();
   };
   if (!hasRoomFor(run, task)) {
-    for (RequirementResult& result : results.requirements)
+    for (RequirementResult& result : all)
       if (result.word == Decision::open) result.why = run.watch.why();
   }
-  addCost(results, "requirements", cpu);
+  const auto open = std::ranges::find(all, Decision::open, &RequirementResult::word);
+  all.why = open == all.end() ? "" : open->why;
+  if (*run.watch.stop()) all.stopped = run.watch.why();
 }
 
 /// Of all requirements of a run, what is proved: by what is known of their margins, then by tighter flows.
@@ -375,7 +378,11 @@ void stateRequirements(const Study& study, Results& results) {
 
 void checkRequirements(Run& run, const SampledMotion& samples, Enclosure& enclosure, ModelMasses& masses,
                        Results& results) {
-  proveWhileThereIsRoom(run, results, [&] { RequirementProof(run, samples, enclosure, masses, results).proveAll(); });
+  proveWhileThereIsRoom(run, results, [&] {
+    RequirementProof(run, samples, enclosure, masses, results).proveAll();
+    if (enclosure.models && !enclosure.models->at.empty())
+      results.requirements.reached = run.study.times[enclosure.models->at.size() - 1];
+  });
 }
 
 void refuteRequirements(Run& run, const SampledMotion& samples, Results& results) {

@@ -36,7 +36,7 @@ inline Results sampleResults() {
   r.host = "somewhere";
   r.date = "2024-02-29T12:00:00Z";
   r.libraries = {{"HDF5", "1.10"}, {"SUNDIALS", "6.4"}};
-  r.costs = {{"requirements", 0.5}};
+  r.costs = {{"advice", 0.5}};
   r.extensions = {{256, "9.8.8", "elsewhere", "2024-03-01T12:00:00Z", 2.5, 60, 1e9}};
   r.uncertain = {{"first angle", "shoulder.angle", "rad", 0.9, 1.0, 1.1, "uniform", "triangular"}};
   r.uncertain[0].inconsistency = 0.001;
@@ -118,6 +118,11 @@ inline Results sampleResults() {
                            {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, Decider::unresolved, false, -1, {0, 0}}};
   r.margins = {{0, "tip.position.z", true, "0.5 m", "m", false, 0, 0, true},
                {1, "energy", true, "0 J", "J", true, 1, 0, true}};
+  r.requirements.present = true;
+  r.requirements.reached = 0.01;
+  r.requirements.cpu = 0.5;
+  r.requirements.why = "the enclosure is not tight enough to tell";
+  r.requirements.stopped = "the run was interrupted";
   r.requirements.resize(2);
   RequirementResult& met = r.requirements[0];
   met.name = "energy kept";

@@ -53,6 +53,17 @@ TEST_F(ResultsFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(found.comparison.disputed[0].farthest, (std::vector<double>{0.01, 0.25}));
 }
 
+/// Files were written before it was kept how the proof of requirements ended.
+TEST_F(ResultsFile, HoldsRequirementsWithoutTheirProof) {
+  Results results = sampleResults();
+  const std::vector<RequirementResult> requirements = results.requirements;
+  results.requirements = {};
+  results.requirements.assign(requirements.begin(), requirements.end());
+  writeResults(results, path_);
+  EXPECT_THAT(differences(readResults(path_), results), IsEmpty());
+  EXPECT_THAT(differences(results, sampleResults()), ::testing::ElementsAre("/requirements/proof"));
+}
+
 TEST_F(ResultsFile, WithADisputeOverACutThatIsNotThereIsRefused) {
   for (const int level : {-2, 3}) {
     Results results = sampleResults();
@@ -69,7 +80,7 @@ TEST_F(ResultsFile, KeepsAbsentPartsAbsent) {
   results.fuzzy = {};
   results.comparison = {};
   results.uncertain.clear();
-  results.requirements.clear();
+  results.requirements = {};
   results.distribution = {};
   results.sensitivity = {};
   results.of<DerivativeResult>() = {};

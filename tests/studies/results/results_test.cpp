@@ -144,7 +144,9 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(r.fuzzy.influence, fields["/fuzzy/influence"], r.fuzzy.influence.present), padding);
   EXPECT_LE(longestGap(r.comparison, fields["/comparison"], r.comparison.present, r.comparison.disputed), padding);
   EXPECT_LE(longestGap(r.comparison.disputed[0], fields["/comparison/disputed"]), padding);
-  EXPECT_LE(longestGap(r.requirements[0], fields["/requirements"]), padding);
+  const std::vector<RequirementResult>& requirements = r.requirements;
+  EXPECT_LE(longestGap(r.requirements, fields["/requirements/proof"], r.requirements.present, requirements), padding);
+  EXPECT_LE(longestGap(requirements[0], fields["/requirements"]), padding);
   EXPECT_LE(longestGap(r.libraries[0], fields["/study/libraries"]), padding);
   EXPECT_LE(longestGap(r.costs[0], fields["/study/costs"]), padding);
   EXPECT_LE(longestGap(r.extensions[0], fields["/study/extensions"]), padding);
