@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -112,11 +113,30 @@ struct Field {
   std::string_view unit, meaning;
   /// One that is the field's own path, and the only one, makes the field that dimension's scale, whose numbers rise.
   std::vector<std::string_view> dimensions;
-  Allowed allowed = allowed::anything;
-  std::string_view indexOf = "";  ///< of an index: the dimension, whose extent it lies below
-  bool isNoise = false;           ///< its digits follow no rule that compression could use
-  bool isNew = false;             ///< of a list: files of this format may be without it, and leave it as it is
+  Allowed allowed;
+  std::string_view indexOf;  ///< of an index: the dimension, whose extent it lies below
+  bool isNoise = false;      ///< its digits follow no rule that compression could use
+  bool isNew = false;        ///< of a list: files of this format may be without it, and leave it as it is
+
+  Field(std::string_view itsName, FieldValue where, std::string_view itsUnit, std::string_view whatItIs,
+        Allowed between = allowed::anything, std::string_view indexInto = "")
+      : name(itsName), value(where), unit(itsUnit), meaning(whatItIs), allowed(between), indexOf(indexInto) {}
+  Field(std::string_view itsName, FieldValue where, std::string_view itsUnit, std::string_view whatItIs,
+        std::vector<std::string_view> itsDimensions, Allowed between = allowed::anything)
+      : Field(itsName, where, itsUnit, whatItIs, between) {
+    dimensions = std::move(itsDimensions);
+  }
 };
+
+inline Field noise(Field field) {
+  field.isNoise = true;
+  return field;
+}
+
+inline Field fresh(Field field) {
+  field.isNew = true;
+  return field;
+}
 
 /// A group of the file: one record, whose single values are attributes, or a list of records, one data set a field.
 struct Group {

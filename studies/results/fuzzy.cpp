@@ -21,13 +21,9 @@ std::vector<Field> fieldsOf(FuzzyResult& r) {
 std::vector<Field> fieldsOfTransformation(TransformationResult& r) {
   using namespace dimension;
   return {
-      {"method",
-       &r.method,
-       unit::none,
+      {"method", &r.method, unit::none,
        "\"reduced\": corners of the cuts; \"general\": values between their ends, too; \"extended\": these of "
-       "quantities "
-       "in which outputs turn",
-       {}},
+       "quantities in which outputs turn"},
       {"stepped",
        &r.stepped,
        unit::none,
@@ -45,22 +41,20 @@ std::vector<Field> fieldsOfTransformation(TransformationResult& r) {
        &r.gap,
        unit::one,
        "width of the proved cut minus width of that of the samples, over the width of the widest proved cut, at the "
-       "time "
-       "at which that is greatest; NaN where no sample is so possible, or the widest cut too narrow to tell",
+       "time at which that is greatest; NaN where no sample is so possible, or the widest cut too narrow to tell",
        {alpha, output}},
       {"gap_time", &r.gapTime, unit::second, "that time; NaN likewise", {alpha, output}}};
 }
 
 std::vector<Field> fieldsOfInfluence(InfluenceResult& r) {
   constexpr std::string_view when = "/fuzzy/influence/time";
-  return {
-      {"time", &r.time, unit::second, "some output times", {when}},
-      {"share",
-       &r.share,
-       unit::one,
-       "share of a quantity in what deviations by equal shares of the quantities' values do to the output (measures "
-       "of influence after Hanss, from the corners of the cuts); NaN where none does anything",
-       {when, dimension::output, dimension::quantity}}};
+  return {{"time", &r.time, unit::second, "some output times", {when}},
+          {"share",
+           &r.share,
+           unit::one,
+           "share of a quantity in what deviations by equal shares of the quantities' values do to the output "
+           "(measures of influence after Hanss, from the corners of the cuts); NaN where none does anything",
+           {when, dimension::output, dimension::quantity}}};
 }
 
 }  // namespace

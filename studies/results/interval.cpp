@@ -9,17 +9,13 @@ namespace {
 std::vector<Field> fieldsOf(IntervalResult& r) {
   using namespace dimension;
   return r.fieldsAnd(
-      {{"tightness", &r.tightness, unit::one, "dynamics: overestimation of `at` as far as it is proved", {}},
-       {"shortfall", &r.shortfall, unit::none, "what is looser than was asked for, and why; empty if nothing is", {}},
-       {"advice",
-        &r.advice,
-        unit::none,
+      {{"tightness", &r.tightness, unit::one, "dynamics: overestimation of `at` as far as it is proved"},
+       {"shortfall", &r.shortfall, unit::none, "what is looser than was asked for, and why; empty if nothing is"},
+       {"advice", &r.advice, unit::none,
         "what may help against that, or against an early end: a key of a study and its value, or words; empty if "
-        "nothing "
-        "is known to",
-        {}},
-       {"pieces", &r.pieces, unit::none, "sub-boxes at the end", {}, allowed::count},
-       {"steps", &r.steps, unit::none, "steps in time, of all sub-boxes", {}, allowed::count},
+        "nothing is known to"},
+       {"pieces", &r.pieces, unit::none, "sub-boxes at the end", allowed::count},
+       {"steps", &r.steps, unit::none, "steps in time, of all sub-boxes", allowed::count},
        {"at", &r.at, unit::ofOutput, "enclosure at the output times", {time, output}},
        {"over",
         &r.over,

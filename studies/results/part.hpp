@@ -29,8 +29,8 @@ struct Part {
   /// The fields of all parts, then those of one.
   std::vector<Field> fieldsAnd(std::vector<Field> others) {
     std::vector<Field> fields{
-        {"why", &why, unit::none, "why it is less than was asked for; empty if it is not", {}},
-        {"stopped", &stopped, unit::none, "why the run ended before all of it was done; empty if it did not", {}}};
+        {"why", &why, unit::none, "why it is less than was asked for; empty if it is not"},
+        {"stopped", &stopped, unit::none, "why the run ended before all of it was done; empty if it did not"}};
     fields.insert(fields.end(), others.begin(), others.end());
     return fields;
   }
@@ -47,8 +47,8 @@ struct TimedPart : Part {
   double spent() const override { return cpu; }
   /// The fields of all of these, then those of one.
   std::vector<Field> fieldsAnd(std::vector<Field> others) {
-    others.insert(others.begin(), {{"reached", &reached, unit::second, "time up to which it came", {}},
-                                   {"cpu", &cpu, unit::second, "CPU time", {}}});
+    others.insert(others.begin(), {{"reached", &reached, unit::second, "time up to which it came"},
+                                   {"cpu", &cpu, unit::second, "CPU time"}});
     return Part::fieldsAnd(std::move(others));
   }
 

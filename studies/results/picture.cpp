@@ -15,67 +15,54 @@ constexpr std::string_view direction = "/machine/directions/direction", point = 
 std::vector<Field> fieldsOf(PictureResult& m) { return m.fieldsAnd({}); }
 
 std::vector<Field> fieldsOfDirection(DirectionInfo& d) {
-  return {{"direction", &d.name, unit::none, "of the inertial frame", {}},
-          {"gravity", &d.gravity, "m/s^2", "acceleration of free fall along it, nominal", {}, allowed::finite}};
+  return {{"direction", &d.name, unit::none, "of the inertial frame"},
+          {"gravity", &d.gravity, "m/s^2", "acceleration of free fall along it, nominal", allowed::finite}};
 }
 
 std::vector<Field> fieldsOfPoint(PointInfo& p) {
-  return {{"point", &p.name, unit::none, "name of the first frame, centre of mass or end of a spring there", {}},
-          {"fixed", &p.isFixed, unit::none, "1 if no motion moves it", {}},
-          {"ground", &p.isGround, unit::none, "1 if the inertial frame carries it", {}}};
+  return {{"point", &p.name, unit::none, "name of the first frame, centre of mass or end of a spring there"},
+          {"fixed", &p.isFixed, unit::none, "1 if no motion moves it"},
+          {"ground", &p.isGround, unit::none, "1 if the inertial frame carries it"}};
 }
 
 std::vector<Field> fieldsOfPart(PartInfo& p) {
-  return {{"part", &p.name, unit::none, "name of the element", {}},
-          {"type", &p.type, unit::none, "its type in the study", {}},
-          {"kind",
-           Choice::of(p.kind),
-           unit::none,
-           "\"rigid\", \"joint\", \"mass\" (from a frame to its centre) or \"spring\"",
-           {}},
-          {"from", &p.from, unit::none, "index of the point where it begins", {}, allowed::count, scale::point},
-          {"to", &p.to, unit::none, "index of the point where it ends", {}, allowed::count, scale::point},
-          {"turns", &p.turns, unit::none, "of a joint: in how many ways it turns", {}, allowed::count},
-          {"slides", &p.slides, unit::none, "of a joint: in how many ways it slides", {}, allowed::count},
-          {"mass", &p.mass, "kg", "nominal mass", {}, allowed::finite},
-          {"told",
-           &p.told,
-           unit::none,
-           "unit in which the page tells the mass, as the study states it; empty: kg",
-           {},
-           allowed::anything,
-           "",
-           false,
-           true}};
+  return {
+      {"part", &p.name, unit::none, "name of the element"},
+      {"type", &p.type, unit::none, "its type in the study"},
+      {"kind", Choice::of(p.kind), unit::none,
+       "\"rigid\", \"joint\", \"mass\" (from a frame to its centre) or \"spring\""},
+      {"from", &p.from, unit::none, "index of the point where it begins", allowed::count, scale::point},
+      {"to", &p.to, unit::none, "index of the point where it ends", allowed::count, scale::point},
+      {"turns", &p.turns, unit::none, "of a joint: in how many ways it turns", allowed::count},
+      {"slides", &p.slides, unit::none, "of a joint: in how many ways it slides", allowed::count},
+      {"mass", &p.mass, "kg", "nominal mass", allowed::finite},
+      fresh({"told", &p.told, unit::none, "unit in which the page tells the mass, as the study states it; empty: kg"})};
 }
 
 std::vector<Field> fieldsOfAxis(AxisInfo& a) {
-  return {{"axis", &a.name, unit::none, "name of a joint's axis", {}},
-          {"joint", &a.part, unit::none, "index of the part", {}, allowed::count, scale::part}};
+  return {{"axis", &a.name, unit::none, "name of a joint's axis"},
+          {"joint", &a.part, unit::none, "index of the part", allowed::count, scale::part}};
 }
 
 std::vector<Field> fieldsOfPlaces(Places& p) {
   using namespace scale;
   const auto places = [](std::string_view name, std::vector<double>& values, std::string_view meaning) {
-    return Field{name, &values, "m", meaning, {time, point, direction}, allowed::anything, "", true};
+    return noise({name, &values, "m", meaning, {time, point, direction}});
   };
-  return {{"time", &p.time, unit::second, "output times that are shown", {time}},
-          places("nominal", p.nominal, "in the nominal motion; NaN where it did not arrive"),
-          {"axes", &p.axes, unit::one, "unit vectors of the axes in the nominal motion", {time, axis, direction}},
-          {"sample", &p.sample, unit::none, "numbers of the samples that are shown", {sample}, allowed::count},
-          {"samples",
-           &p.samples,
-           "m",
-           "in these samples' motions; NaN where one did not arrive",
-           {sample, time, point, direction},
-           allowed::anything,
-           "",
-           true},
-          places("lower", p.lower, "enclosure at these times, lower bound; NaN where there is none"),
-          places("upper", p.upper, "enclosure at these times, upper bound"),
-          places("sag", p.sag,
-                 "how far a point may be, since the time before, from the straight line between its places at both "
-                 "times")};
+  return {
+      {"time", &p.time, unit::second, "output times that are shown", {time}},
+      places("nominal", p.nominal, "in the nominal motion; NaN where it did not arrive"),
+      {"axes", &p.axes, unit::one, "unit vectors of the axes in the nominal motion", {time, axis, direction}},
+      {"sample", &p.sample, unit::none, "numbers of the samples that are shown", {sample}, allowed::count},
+      noise({"samples",
+             &p.samples,
+             "m",
+             "in these samples' motions; NaN where one did not arrive",
+             {sample, time, point, direction}}),
+      places("lower", p.lower, "enclosure at these times, lower bound; NaN where there is none"),
+      places("upper", p.upper, "enclosure at these times, upper bound"),
+      places("sag", p.sag,
+             "how far a point may be, since the time before, from the straight line between its places at both times")};
 }
 
 }  // namespace

@@ -11,15 +11,12 @@ constexpr std::string_view times = "/distribution/time", points = "/distribution
 std::vector<Field> fieldsOf(DistributionResult& d) {
   using namespace dimension;
   return d.fieldsAnd(
-      {{"cpu", &d.cpu, unit::second, "CPU time, that of sensitivities and of flows for both included", {}},
-       {"wanted", &d.wanted, unit::one, "gap between the bounds that was aimed at", {}, allowed::share},
-       {"gap", &d.gap, unit::one, "the greatest that was left; NaN if nothing is known of some", {}, allowed::share},
-       {"band",
-        &d.band,
-        unit::one,
+      {{"cpu", &d.cpu, unit::second, "CPU time, that of sensitivities and of flows for both included"},
+       {"wanted", &d.wanted, unit::one, "gap between the bounds that was aimed at", allowed::share},
+       {"gap", &d.gap, unit::one, "the greatest that was left; NaN if nothing is known of some", allowed::share},
+       {"band", &d.band, unit::one,
         "half the 95 % band of Dvoretzky, Kiefer and Wolfowitz about the share of samples; 0 unless all samples "
-        "arrived and are independent",
-        {}},
+        "arrived and are independent"},
        {"time", &d.time, unit::second, "output times of which distributions are bounded", {times}},
        {"point", &d.point, unit::none, "numbers of values", {points}, allowed::count},
        {"value", &d.value, unit::ofOutput, "values, rising; behind the last NaN", {times, output, points}},
@@ -55,8 +52,8 @@ std::vector<Field> fieldsOf(SensitivityResult& s) {
        {"first_lower",
         &s.first.lower,
         unit::one,
-        "proved bound of the Sobol' index: the share of the variance that would vanish on average if the quantity "
-        "were known",
+        "proved bound of the Sobol' index: the share of the variance that would vanish on average if the quantity were "
+        "known",
         {when, output, quantity}},
        {"first_upper", &s.first.upper, unit::one, "upper bound", {when, output, quantity}},
        {"total_lower",
@@ -71,12 +68,9 @@ std::vector<Field> fieldsOf(SensitivityResult& s) {
         "share by which the enclosure of the output narrows where the quantity has its nominal value alone; NaN but at "
         "the times of distributions",
         {when, output, quantity}},
-       {"samples",
-        &s.samples,
-        unit::none,
+       {"samples", &s.samples, unit::none,
         "independent samples of the polynomials, in each of two sets and one more a quantity, that estimate the "
         "indices besides",
-        {},
         allowed::count},
        {"first_sampled",
         &s.firstSampled,

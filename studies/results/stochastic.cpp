@@ -11,34 +11,24 @@ namespace gamut {
 namespace {
 
 std::vector<Field> fieldsOfPlan(StochasticResult& r) {
-  return {
-      {"plan", &r.plan, unit::none, "how the samples were placed", {}},
-      {"samples", &r.samples, unit::none, "samples of the plan, which count in the statistics", {}, allowed::count},
-      {"corners", &r.corners, unit::none, "corners of the uncertain box, sampled besides", {}, allowed::count},
-      {"alpha_corners", &r.alphaCorners, unit::none, "corners of the alpha-cuts, sampled besides", {}, allowed::count},
-      {"alpha_points",
-       &r.alphaPoints,
-       unit::none,
-       "points of the transformation inside the alpha-cuts, sampled besides",
-       {},
-       allowed::count},
-      {"integrated",
-       &r.integrated,
-       unit::none,
-       "how many of samples, corners, centre, points and extremes were followed",
-       {},
-       allowed::count},
-      {"failures", &r.failures, unit::none, "how many of these did not arrive at the horizon", {}, allowed::count},
-      {"relative_tolerance", &r.relativeTolerance, unit::one, "of the integration; 0 where nothing is integrated", {}},
-      {"absolute_tolerance", &r.absoluteTolerance, unit::none, "likewise, in the unit of each state", {}},
-      {"pack_width",
-       &r.packWidth,
-       unit::none,
-       "samples of one number / `pack_width`, rounded down, were integrated together, in common steps; corners and "
-       "centre, counted from the first corner, likewise; points from the first that looks for turns, and from the "
-       "first behind these; extremes from the first",
-       {},
-       {1, allowed::count.greatest}}};
+  return {{"plan", &r.plan, unit::none, "how the samples were placed"},
+          {"samples", &r.samples, unit::none, "samples of the plan, which count in the statistics", allowed::count},
+          {"corners", &r.corners, unit::none, "corners of the uncertain box, sampled besides", allowed::count},
+          {"alpha_corners", &r.alphaCorners, unit::none, "corners of the alpha-cuts, sampled besides", allowed::count},
+          {"alpha_points", &r.alphaPoints, unit::none,
+           "points of the transformation inside the alpha-cuts, sampled besides", allowed::count},
+          {"integrated", &r.integrated, unit::none,
+           "how many of samples, corners, centre, points and extremes were followed", allowed::count},
+          {"failures", &r.failures, unit::none, "how many of these did not arrive at the horizon", allowed::count},
+          {"relative_tolerance", &r.relativeTolerance, unit::one, "of the integration; 0 where nothing is integrated"},
+          {"absolute_tolerance", &r.absoluteTolerance, unit::none, "likewise, in the unit of each state"},
+          {"pack_width",
+           &r.packWidth,
+           unit::none,
+           "samples of one number / `pack_width`, rounded down, were integrated together, in common steps; corners and "
+           "centre, counted from the first corner, likewise; points from the first that looks for turns, and from the "
+           "first behind these; extremes from the first",
+           {1, allowed::count.greatest}}};
 }
 
 std::vector<Field> fieldsOf(StochasticResult& r) {
@@ -48,8 +38,8 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
       {"envelope",
        &r.envelope,
        unit::ofOutput,
-       "least and greatest of all samples, corners, centre, points and extremes; like all that samples say, NaN "
-       "beyond `reached`",
+       "least and greatest of all samples, corners, centre, points and extremes; like all that samples say, NaN beyond "
+       "`reached`",
        {time, output}},
       {"mean", &r.mean, unit::ofOutput, "mean of the samples", {time, output}},
       {"mean_error",
@@ -74,12 +64,9 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
        "of the samples, otherwise from 16 independent batches; NaN where none holds",
        {probability, time, output}},
       {"quantile_upper", &r.quantileUpper, unit::ofOutput, "upper end", {probability, time, output}},
-      {"covered",
-       &r.covered,
-       unit::one,
+      {"covered", &r.covered, unit::one,
        "share of all motions that lies, in each output at each time, between the least and the greatest sample with a "
        "confidence of 95 % (Wilks); 0 unless all samples arrived and are independent",
-       {},
        allowed::share},
       {"resolution",
        &r.resolution,
@@ -91,9 +78,9 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
 }
 
 std::vector<Field> fieldsOfFailed(FailedSampleResult& f) {
-  return {{"number", &f.number, unit::none, "number of the sample, as of disputed ones", {}, allowed::count},
-          {"reached", &f.reached, unit::second, "how far it came", {}},
-          {"why", &f.why, unit::none, "why no farther", {}}};
+  return {{"number", &f.number, unit::none, "number of the sample, as of disputed ones", allowed::count},
+          {"reached", &f.reached, unit::second, "how far it came"},
+          {"why", &f.why, unit::none, "why no farther"}};
 }
 
 std::vector<Field> fieldsOfConvergence(ConvergenceResult& c) {
@@ -135,37 +122,23 @@ std::vector<Field> fieldsOfSwitching(SwitchingResult& s) {
 std::vector<Field> fieldsOfKept(KeptSamples& k) {
   using namespace dimension;
   return {
-      {"storage", &k.storage, unit::byte, "that values and motions may take", {}},
-      {"values_every",
-       &k.valuesEvery,
-       unit::none,
-       "`values` are of every so manyth sample by number, and of the centre; 0: of none",
-       {},
-       allowed::count},
-      {"motions_every", &k.motionsEvery, unit::none, "`motions` likewise", {}, allowed::count},
+      {"storage", &k.storage, unit::byte, "that values and motions may take"},
+      {"values_every", &k.valuesEvery, unit::none,
+       "`values` are of every so manyth sample by number, and of the centre; 0: of none", allowed::count},
+      {"motions_every", &k.motionsEvery, unit::none, "`motions` likewise", allowed::count},
       {"number",
        &k.number,
        unit::none,
        "of the samples whose values are kept, counted as those of disputed samples",
        {sample},
        allowed::count},
-      {"values",
-       &k.values,
-       unit::ofQuantity,
-       "of the uncertain quantities",
-       {sample, quantity},
-       allowed::anything,
-       "",
-       true},
+      noise({"values", &k.values, unit::ofQuantity, "of the uncertain quantities", {sample, quantity}}),
       {"motion_number", &k.motionNumber, unit::none, "of the samples whose motions are kept", {motion}, allowed::count},
-      {"motions",
-       &k.motions,
-       unit::ofOutput,
-       "outputs of these samples, as they count in the statistics; NaN where a sample did not arrive",
-       {motion, time, output},
-       allowed::anything,
-       "",
-       true}};
+      noise({"motions",
+             &k.motions,
+             unit::ofOutput,
+             "outputs of these samples, as they count in the statistics; NaN where a sample did not arrive",
+             {motion, time, output}})};
 }
 
 }  // namespace
@@ -215,11 +188,10 @@ void StochasticResult::describe(std::vector<Group>& groups) {
                           "/stochastic/failed/number", failed, fieldsOfFailed));
   groups.push_back(
       groupOf("/stochastic/convergence", "what fewer samples would have said", convergence, fieldsOfConvergence));
-  groups.push_back(
-      groupOf("/stochastic/extremes",
-              "points where the proved models of outputs tell that these are extreme, and worst courses of "
-              "what varies in time, sampled besides",
-              extremes, fieldsOfExtremes));
+  groups.push_back(groupOf("/stochastic/extremes",
+                           "points where the proved models of outputs tell that these are extreme, and worst courses "
+                           "of what varies in time, sampled besides",
+                           extremes, fieldsOfExtremes));
   groups.push_back(groupOf("/stochastic/switching", "the worst courses, which switch from value to value", switching,
                            fieldsOfSwitching));
   groups.push_back(groupOf("/stochastic/kept", "samples one by one, as far as they are kept", kept, fieldsOfKept));

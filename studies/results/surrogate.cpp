@@ -40,7 +40,7 @@ std::vector<Field> fieldsOf(SurrogateResult& s) {
         unit::ofOutput,
         "the output is not farther than this from the polynomial, proved for every eta; NaN without one",
         {part, output}},
-       {"coefficient", &s.coefficient, unit::none, "in the unit of the output", {number}, allowed::finite, "", true}});
+       noise({"coefficient", &s.coefficient, unit::none, "in the unit of the output", {number}, allowed::finite})});
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct CoreResult final : FurtherPart {
   void describe(std::vector<Group>& groups) override {
     groups.push_back(groupOf<CoreResult>("/core", "the middle of enclosures", *this, [](CoreResult& c) {
       using namespace dimension;
-      return c.fieldsAnd({{"share", &c.share, unit::one, "of the width", {}, allowed::share},
+      return c.fieldsAnd({{"share", &c.share, unit::one, "of the width", allowed::share},
                           {"core", &c.core, unit::ofOutput, "middle of the enclosure", {time, output}},
                           {"lower", &c.lower, unit::ofOutput, "any bounds", {output}},
                           {"upper", &c.upper, unit::ofOutput, "upper bound", {output}},
