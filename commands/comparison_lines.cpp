@@ -62,7 +62,7 @@ std::string samplesText(const Results& first, const Results& second) {
     if (one != other) parts.push_back(fmt::format("{} {} in A, {} in B", what, one, other));
   };
   add("seed", first.seed, second.seed);
-  add("plan", a.plan, b.plan);
+  add("plan", wordOf(a.plan), wordOf(b.plan));
   add("number", a.samples, b.samples);
   return parts.empty() ? "" : fmt::format("Other samples: {}.\n", fmt::join(parts, "; "));
 }

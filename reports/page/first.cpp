@@ -140,46 +140,55 @@ std::vector<std::size_t> limitsShown(const Results& results, const Foremost& for
   return numbers;
 }
 
+/// A layer that the first figure shows, and what its caption says of it.
+struct Essential {
+  std::string_view layer;
+  enum class Of : unsigned char { all, proof, samples, cuts } of;
+  std::string_view words = "";
+};
+
+constexpr Essential essential[] = {
+    {"guaranteed", Essential::Of::proof, "blue: where it lies in every case that the stated tolerances allow"},
+    {"tube", Essential::Of::proof},
+    {"estimated", Essential::Of::all,
+     "pink: behind the end of the proof, where simulated cases lie, which is not proved of all"},
+    {"sampled", Essential::Of::samples, "dashed: the least and the greatest of all simulated cases"},
+    {"probable", Essential::Of::samples, "orange band: where most of them lie"},
+    {"possible", Essential::Of::cuts, "violet: where it can lie, the darker the more possible"},
+    {"median", Essential::Of::all, "orange line: half of the simulated cases lie below"},
+    {"limit", Essential::Of::all, "red, dashed: the limit"}};
+
+bool has(const Plot& plot, std::string_view layer) {
+  return std::ranges::find(plot.layers, layer, &Layer::name) != plot.layers.end();
+}
+
 /// Of what is known the best, a middle, and these limits.
 Plot essentials(Plot plot, const std::vector<std::size_t>& limits) {
-  const auto has = [&](std::string_view name) {
-    return std::ranges::find(plot.layers, name, &Layer::name) != plot.layers.end();
-  };
-  const bool isProved = has("guaranteed"), isSampled = has("sampled");
+  const bool isProved = has(plot, "guaranteed"), isSampled = has(plot, "sampled");
   std::erase_if(plot.layers, [&](const Layer& layer) {
-    if (layer.name == "tube" || layer.name == "guaranteed") return !isProved;
-    if (layer.name == "sampled" || layer.name == "probable") return isProved;
-    if (layer.name == "possible") return isProved || isSampled;
-    return layer.name != "median" && layer.name != "limit" && layer.name != "estimated";
+    const auto* found = std::ranges::find(essential, layer.name, &Essential::layer);
+    return found == std::end(essential) || (found->of == Essential::Of::proof && !isProved) ||
+           (found->of == Essential::Of::samples && isProved) ||
+           (found->of == Essential::Of::cuts && (isProved || isSampled));
   });
-  for (Layer& layer : plot.layers) {
-    if (layer.name != "limit") continue;
-    Layer all = layer;
-    layer.bands.clear();
-    layer.labels.clear();
-    for (const std::size_t i : limits) {
-      layer.bands.push_back(std::move(all.bands[i]));
-      layer.labels.push_back(std::move(all.labels[i]));
-    }
+  const auto layer = std::ranges::find(plot.layers, "limit", &Layer::name);
+  if (layer == plot.layers.end()) return plot;
+  const Layer all = *layer;
+  layer->bands.clear();
+  layer->labels.clear();
+  for (const std::size_t i : limits) {
+    layer->bands.push_back(all.bands[i]);
+    layer->labels.push_back(all.labels[i]);
   }
   return plot;
 }
 
 /// What is seen, in words: it needs no key.
 std::string captionOf(const Plot& plot) {
-  std::string words;
-  const auto add = [&](std::string_view name, const char* said) {
-    if (std::ranges::find(plot.layers, name, &Layer::name) == plot.layers.end()) return;
-    words += words.empty() ? "" : "; ";
-    words += said;
-  };
-  add("guaranteed", "blue: where it lies in every case that the stated tolerances allow");
-  add("estimated", "pink: behind the end of the proof, where simulated cases lie, which is not proved of all");
-  add("sampled", "dashed: the least and the greatest of all simulated cases");
-  add("probable", "orange band: where most of them lie");
-  add("possible", "violet: where it can lie, the darker the more possible");
-  add("median", "orange line: half of the simulated cases lie below");
-  add("limit", "red, dashed: the limit");
+  std::vector<std::string_view> said;
+  for (const Essential& one : essential)
+    if (!one.words.empty() && has(plot, one.layer)) said.push_back(one.words);
+  std::string words = fmt::format("{}", fmt::join(said, "; "));
   if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
   return words + (words.empty() ? "" : ".");
 }

@@ -259,7 +259,7 @@ std::string statisticsHint(const Results& results) {
       "Mean (black) and quantiles (orange), as deviations from the mean of the samples: those of all motions, "
       "distributed as the samples are, lie in the bands with 95 % confidence, each number by itself (from 16 "
       "independent batches{}).",
-      s.plan == "random" ? "; quantiles from the samples' order" : "");
+      s.plan == Placement::random ? "; quantiles from the samples' order" : "");
 }
 
 std::string samplesSection(const Report& report) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -22,6 +23,13 @@
 #include "studies/told.hpp"
 
 namespace gamut {
+
+/// In the order in which they are shown.
+enum class Measure : unsigned char { total, first, derivative, pinching, influence };
+template <>
+inline constexpr std::array<std::string_view, 5> words<Measure>{"total", "first", "derivative", "pinching",
+                                                                "influence"};
+
 namespace {
 
 constexpr std::size_t drawnQuantities = 6;
@@ -85,7 +93,8 @@ std::vector<Cause> ranked(std::vector<Cause> causes, std::size_t times, bool isS
 
 /// One of the five, of one output.
 struct Answered {
-  std::string kind = {}, head = {};      ///< a word; at the head of a column of the table
+  Measure measure = Measure::total;
+  std::string head = {};                 ///< of a column of the table
   std::string axis = {}, what = {};      ///< at the axis; in the caption
   std::vector<double> time = {};         ///< s
   std::vector<Cause> causes = {};        ///< the greatest first
@@ -100,7 +109,7 @@ Answered indices(const Results& results, std::size_t output, bool isTotal) {
   const auto& bounds = isTotal ? s.total : s.first;
   const auto& sampled = isTotal ? s.totalSampled : s.firstSampled;
   const auto& error = isTotal ? s.totalError : s.firstError;
-  Answered answer{.kind = isTotal ? "total" : "first",
+  Answered answer{.measure = isTotal ? Measure::total : Measure::first,
                   .head = isTotal ? "total Sobol\u2019 index" : "first-order Sobol\u2019 index",
                   .axis = "share of the variance",
                   .what = isTotal ? "total Sobol\u2019 indices" : "first-order Sobol\u2019 indices",
@@ -137,7 +146,7 @@ Answered shares(const Results& results, std::size_t output, const Course& course
 /// theorem the output changes by no more where the quantity alone moves from the middle of its interval to an end.
 Answered derivatives(const Results& results, std::size_t output) {
   const auto& d = results.of<DerivativeResult>();
-  Answered answer{.kind = "derivative",
+  Answered answer{.measure = Measure::derivative,
                   .head = "derivative",
                   .axis = headingOf("change", results.outputs[output].unit),
                   .what = "derivatives times half the width of each interval",
@@ -301,8 +310,8 @@ std::string figureOf(const Results& results, std::size_t output, const Answered&
   const std::string label = fmt::format("Plot of {} of {} over time", answer.what, plot.name);
   return fmt::format(
       "<figure class=\"kept {}\">{}<figcaption>{} at {} times, joined by lines{}</figcaption>{}</figure>\n",
-      answer.kind, drawSmall(plot, label, answer.isShare), answer.what, answer.time.size(), escapeHtml(leaders),
-      numbersOf(results, output, answer));
+      wordOf(answer.measure), drawSmall(plot, label, answer.isShare), answer.what, answer.time.size(),
+      escapeHtml(leaders), numbersOf(results, output, answer));
 }
 
 // ---- The table ------------------------------------------------------------------------------------------------------
@@ -385,49 +394,41 @@ std::vector<Answered> answersOf(const Results& results, std::size_t output) {
                                 derivatives(results, output)};
   if (s.present)
     answers.push_back(shares(results, output, {s.time, s.pinched},
-                             {.kind = "pinching",
+                             {.measure = Measure::pinching,
                               .head = "narrowing",
                               .axis = "narrower by",
                               .what = "narrowing of the enclosure where a quantity is known"}));
   if (influence.present)
-    answers.push_back(shares(
-        results, output, {influence.time, influence.share},
-        {.kind = "influence", .head = "influence", .axis = "influence", .what = "measures of influence (Hanss)"}));
+    answers.push_back(shares(results, output, {influence.time, influence.share},
+                             {.measure = Measure::influence,
+                              .head = "influence",
+                              .axis = "influence",
+                              .what = "measures of influence (Hanss)"}));
   return answers;
 }
 
-/// What the figures of these kinds say; the first of them is said to everybody.
-std::string hintsOf(const std::vector<std::string>& kinds, const Results& results) {
+/// What the figures of these say; the first of them is said to everybody.
+std::string hintsOf(const std::set<Measure>& measures, const Results& results) {
   const SensitivityResult& s = results.sensitivity;
   const auto& d = results.of<DerivativeResult>();
-  struct Meaning {
-    std::string kind, text;
-  };
-  const Meaning meanings[] = {
-      {"total",
-       "Total Sobol\u2019 index: the share of an output\u2019s variance that would stay if all other quantities were "
-       "known. It is proved to lie in the band of each quantity. The greatest is what to measure better first."},
-      {"first",
-       "First-order Sobol\u2019 index: the share of the variance that would vanish on average if the quantity were "
-       "known."},
-      {"derivative",
-       "Derivatives: proved, for all values in the intervals. Drawn times half the width of the quantity\u2019s "
-       "interval: the output changes by no more where that quantity alone moves from the middle of it to an end."},
-      {"pinching",
-       "Narrowing: the share by which the enclosure of the output narrows where the quantity has its nominal value "
-       "alone."},
-      {"influence",
-       "Measure of influence (Hanss): the quantity\u2019s share in what deviations by equal shares of the "
-       "quantities\u2019 "
-       "values do to the output. Of one whose values lie about zero it says nothing."}};
+  constexpr std::array meanings = {
+      "Total Sobol\u2019 index: the share of an output\u2019s variance that would stay if all other quantities were "
+      "known. It is proved to lie in the band of each quantity. The greatest is what to measure better first.",
+      "First-order Sobol\u2019 index: the share of the variance that would vanish on average if the quantity were "
+      "known.",
+      "Derivatives: proved, for all values in the intervals. Drawn times half the width of the quantity\u2019s "
+      "interval: the output changes by no more where that quantity alone moves from the middle of it to an end.",
+      "Narrowing: the share by which the enclosure of the output narrows where the quantity has its nominal value "
+      "alone.",
+      "Measure of influence (Hanss): the quantity\u2019s share in what deviations by equal shares of the "
+      "quantities\u2019 values do to the output. Of one whose values lie about zero it says nothing."};
   std::string first, others;
-  for (const Meaning& meaning : meanings) {
-    if (std::ranges::find(kinds, meaning.kind) == kinds.end()) continue;
-    std::string text = meaning.text;
-    if (meaning.kind == "total" && s.samples > 0 && !s.totalSampled.empty())
+  for (const Measure measure : measures) {
+    std::string text = meanings[static_cast<std::size_t>(measure)];
+    if (measure == Measure::total && s.samples > 0 && !s.totalSampled.empty())
       text += fmt::format(" Strokes: estimates with their intervals of 95 % confidence, from {} independent samples.",
                           s.samples);
-    if (meaning.kind == "derivative" && !d.why.empty())
+    if (measure == Measure::derivative && !d.why.empty())
       text += fmt::format(" They are known up to {}: {}.", reachedText(d.reached), escapeHtml(d.why));
     if (first.empty())
       first = fmt::format("<p class=\"hint\">{}</p>\n", text);
@@ -446,7 +447,7 @@ PlotSection sensitivityPlots(const Results& results, const Detail& detail) {
   constexpr std::size_t shownTimes = 1001, foldedTimes = 65;
   StyleSheet style;
   std::vector<Layer> key;
-  std::vector<std::string> kinds;
+  std::set<Measure> measures;
   std::string cards;
   for (std::size_t output = 0; output < results.outputs.size(); ++output) {
     if (!detail.cards(output)) continue;
@@ -456,7 +457,7 @@ PlotSection sensitivityPlots(const Results& results, const Detail& detail) {
     std::string first, others;
     for (const Answered& answer : answers) {
       if (answer.causes.empty()) continue;
-      kinds.push_back(answer.kind);
+      measures.insert(answer.measure);
       if (thinned(answer, 2).time.size() < 2) continue;
       std::string& place = first.empty() ? first : others;
       place += figureOf(results, output, answer, first.empty() ? shownTimes : foldedTimes, style, key);
@@ -471,7 +472,7 @@ PlotSection sensitivityPlots(const Results& results, const Detail& detail) {
                          escapeHtml(results.outputs[output].name), first, first.empty() ? table : others);
   }
   if (cards.empty()) return section;
-  section.html = hintsOf(kinds, results);
+  section.html = hintsOf(measures, results);
   if (const std::string& why = results.sensitivity.why; !why.empty())
     section.html += fmt::format("<p class=\"hint\">There are no Sobol’ indices: {}.</p>\n", escapeHtml(why));
   if (!key.empty()) {

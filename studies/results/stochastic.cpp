@@ -11,7 +11,7 @@ namespace gamut {
 namespace {
 
 std::vector<Field> fieldsOfPlan(StochasticResult& r) {
-  return {{"plan", &r.plan, unit::none, "how the samples were placed"},
+  return {{"plan", Choice::of(r.plan), unit::none, "how the samples were placed"},
           {"samples", &r.samples, unit::none, "samples of the plan, which count in the statistics", allowed::count},
           {"corners", &r.corners, unit::none, "corners of the uncertain box, sampled besides", allowed::count},
           {"alpha_corners", &r.alphaCorners, unit::none, "corners of the alpha-cuts, sampled besides", allowed::count},
@@ -169,7 +169,7 @@ std::string StochasticResult::amount() const {
                                      ? fmt::format(", tolerances {} relative, {} absolute",
                                                    numberText(relativeTolerance), numberText(absoluteTolerance))
                                      : "";
-  return fmt::format("plan {}, {}{}{}{}", plan,
+  return fmt::format("plan {}, {}{}{}{}", wordOf(plan),
                      countText(corners + alphaCorners, "corner") +
                          (alphaPoints > 0 ? ", " + countText(alphaPoints, "alpha-point") : "") +
                          (extremes.number.empty() ? "" : ", " + countText(planned() - firstExtreme(), "extreme")),

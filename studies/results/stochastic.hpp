@@ -57,6 +57,12 @@ struct ConvergenceResult {
   std::vector<double> meanError;      ///< [samples][output]: half the 95 % interval, in standard deviations
 };
 
+/// How samples were placed: a Plan (analyses/samples/sampling.hpp), in its words.
+enum class Placement : unsigned char { sobol, random, latinHypercube, halton, grid };
+template <>
+inline constexpr std::array<std::string_view, 5> words<Placement>{"sobol", "random", "latin-hypercube", "halton",
+                                                                  "grid"};
+
 /// Its `reached`: all samples that were followed arrived there; envelope and statistics end there.
 struct StochasticResult final : Answer {
   static constexpr std::string_view name = "stochastic";
@@ -70,7 +76,7 @@ struct StochasticResult final : Answer {
   /// transformation, and the extremes.
   std::string nameOf(std::int64_t number) const;
 
-  std::string plan;
+  Placement plan = Placement::sobol;
   std::int64_t samples = 0;       ///< that count in the statistics
   std::int64_t corners = 0;       ///< of the uncertain box, integrated besides, without weight
   std::int64_t alphaCorners = 0;  ///< of the alpha-cuts' boxes, likewise

@@ -29,7 +29,7 @@ Sampling samplingOf(const Study& study, const Results& results, std::size_t samp
 void checkStudy(const Study& study, const Results& results) {
   bool isSame = results.time == study.times && results.outputs.size() == study.outputs.size() &&
                 results.uncertain.size() == study.uncertain.size() &&
-                results.stochastic.plan == nameOf(study.ensemble.plan);
+                wordOf(results.stochastic.plan) == nameOf(study.ensemble.plan);
   for (std::size_t i = 0; isSame && i < study.outputs.size(); ++i)
     isSame = results.outputs[i].name == study.outputs[i].name && results.outputs[i].unit == study.outputs[i].unit;
   for (std::size_t i = 0; isSame && i < study.uncertain.size(); ++i) {
@@ -71,7 +71,7 @@ std::size_t checkedSamples(const Study& study, const Results& results, const Run
     throw std::invalid_argument(
         fmt::format("its samples are of the plan {}, by which more samples lie elsewhere, all of them; expected sobol, "
                     "halton or random, or run the study again",
-                    stochastic.plan));
+                    wordOf(stochastic.plan)));
   const Sampling sampling = samplingOf(study, results, options.samples.value_or(0));
   const auto samples = static_cast<std::int64_t>(sampling.samples());
   const bool isIncomplete = stochastic.integrated < stochastic.planned();

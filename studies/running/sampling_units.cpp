@@ -185,7 +185,7 @@ void takeFirstSamples(Run& run, SampledMotion& samples, Results& results) {
   const EnsembleOptions options = ensembleOptions(run, results);
   StochasticResult& stochastic = results.stochastic;
   stochastic.present = true;
-  stochastic.plan = std::string(nameOf(options.plan));
+  Choice::of(stochastic.plan).take(nameOf(options.plan));  // the words are the same
   stochastic.samples = static_cast<std::int64_t>(options.samples);
   if (run.moves() && !run.study.isMotionGiven()) {
     stochastic.relativeTolerance = options.tolerance.relative;

@@ -53,7 +53,7 @@ Results pendulum(std::size_t times, std::size_t outputs, std::size_t levels) {
   interval.pieces = 1;
   interval.steps = 412;
   interval.cpu = 1.73;
-  stochastic.plan = "sobol";
+  stochastic.plan = Placement::sobol;
   stochastic.samples = 4096;
   stochastic.corners = 2;
   stochastic.integrated = stochastic.planned();
@@ -172,7 +172,7 @@ Results sensitive() {
   Results results = pendulum(61, outputs);
   results.uncertain.push_back({"<mass>", "tip.mass", "kg", 0.9, 1, 1.1, "uniform", "triangular"});
   StochasticResult& s = results.stochastic;
-  s.plan = "random";
+  s.plan = Placement::random;
   s.covered = 0.99537;
   s.meanError = s.deviationError = Table(61, outputs);
   s.quantileLower = s.quantileUpper = s.quantiles;

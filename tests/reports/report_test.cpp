@@ -139,7 +139,7 @@ TEST(Report, EscapesEverythingAPersonWrote) {
   Results results = example::pendulum();
   const std::size_t scripts = count(renderReport(results), "<script");
   results.title = results.studyText = results.studyFile = results.host = results.version = results.date = attack;
-  results.analysis = results.interval.why = results.stochastic.plan = attack;
+  results.analysis = results.interval.why = attack;
   results.interval.reached = 2;
   results.libraries = {{attack, attack}};
   results.uncertain[0] = {attack, attack, attack, 1, 2, 3, attack, attack};

@@ -59,7 +59,7 @@ inline Results sampleResults() {
   r.interval.steps = 123456789012;
   r.interval.cpu = 0.25;
   r.stochastic.present = true;
-  r.stochastic.plan = "sobol";
+  r.stochastic.plan = Placement::sobol;
   r.stochastic.samples = 4096;
   r.stochastic.corners = 3;
   r.stochastic.alphaCorners = 18;

@@ -229,7 +229,7 @@ TEST(ProbabilitySection, DrawsMeanAndQuantilesWithTheirConfidence) {
   EXPECT_THAT(text, AllOf(HasSubstr("quantiles from the samples&#39; order"), Not(HasSubstr("<details")),
                           HasSubstr("[\"95 % quantile (rad)\""), HasSubstr("[\"to (rad)\"")));
   Results results = example::sensitive();
-  results.stochastic.plan = "sobol";
+  results.stochastic.plan = Placement::sobol;
   DistributionResult& d = results.distribution;
   d.present = true;
   d.time = {3};
