@@ -1,6 +1,9 @@
-# Builds the program TEST (a .cpp beside this file) with its SOURCES in FOLDER by COMPILER with FLAGS, runs it in two
-# threads, and compares the digest that it prints with that of the program REFERENCE, the project's own build. If CALLER
-# names a flag, once more with TEST compiled with that flag too; if RUNNER names a program, once more by that program. Says "skipped" where the compiler, the runner or the machine's instructions are missing.
+# Builds the program TEST (a .cpp beside this file) with its SOURCES (most together, those APART on their own) in FOLDER by
+# COMPILER with FLAGS, runs it in two threads, and compares the digest that it prints with that of the program REFERENCE,
+# the project's own build. If CALLER names a flag, once more with TEST compiled with that flag too; if RUNNER names a
+# program, once more by that program. Says "skipped" where the compiler, the runner or the machine's instructions are
+# missing.
+cmake_policy(VERSION 3.25)
 separate_arguments(FLAGS)
 separate_arguments(RUNNER)
 if(RUNNER)
@@ -23,7 +26,16 @@ function(compile source object)
   execute_process(COMMAND ${COMPILER} -std=c++20 ${ARGN} -I${SOURCE} ${includes} -c ${source} -o ${FOLDER}/${object}
     COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
+# In one run of the compiler, which reads headers once; apart what defines for itself what others define too.
+set(together ${FOLDER}/together.cpp)
 foreach(source ${SOURCES})
+  cmake_path(GET source STEM stem)
+  if(NOT stem IN_LIST APART)
+    file(APPEND ${together} "#include \"${source}\"\n")
+    list(REMOVE_ITEM SOURCES ${source})
+  endif()
+endforeach()
+foreach(source ${together} ${SOURCES})
   cmake_path(GET source STEM object)
   compile(${source} ${object}.o ${FLAGS} -ffp-contract=off)
   list(APPEND objects ${FOLDER}/${object}.o)

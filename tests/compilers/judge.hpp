@@ -17,25 +17,27 @@
 namespace gamut::testing {
 
 /// A real number got from doubles by + - *; throws std::range_error where the result is not exact.
-/// a * b + c of any doubles fits: its bits weigh between 2^-2148 and 2^2049.
+/// a * b + c of any doubles fits: its bits weigh between 2^-2148 and 2^2049. Functions of their own, and not hundreds
+/// of copies, which would be most of what there is to compile.
 class Exact {
  public:
-  Exact(double value, mpfr_prec_t precision = 4200) {  // NOLINT(google-explicit-*): so that Exact + double is exact
+  // NOLINTNEXTLINE(google-explicit-*): so that Exact + double is exact
+  [[gnu::noinline]] Exact(double value, mpfr_prec_t precision = 4200) {
     mpfr_init2(value_, precision);
     check(mpfr_set_d(value_, value, MPFR_RNDN));
   }
-  Exact(const Exact& other) : Exact(0.0) { mpfr_set(value_, other.value_, MPFR_RNDN); }
+  [[gnu::noinline]] Exact(const Exact& other) : Exact(0.0) { mpfr_set(value_, other.value_, MPFR_RNDN); }
   Exact& operator=(const Exact& other) {
     mpfr_set(value_, other.value_, MPFR_RNDN);
     return *this;
   }
-  ~Exact() { mpfr_clear(value_); }
+  [[gnu::noinline]] ~Exact() { mpfr_clear(value_); }
 
   mpfr_srcptr get() const { return value_; }
 
-  friend Exact operator+(const Exact& x, const Exact& y) { return by(mpfr_add, x, y); }
-  friend Exact operator-(const Exact& x, const Exact& y) { return by(mpfr_sub, x, y); }
-  friend Exact operator*(const Exact& x, const Exact& y) { return by(mpfr_mul, x, y); }
+  [[gnu::noinline]] friend Exact operator+(const Exact& x, const Exact& y) { return by(mpfr_add, x, y); }
+  [[gnu::noinline]] friend Exact operator-(const Exact& x, const Exact& y) { return by(mpfr_sub, x, y); }
+  [[gnu::noinline]] friend Exact operator*(const Exact& x, const Exact& y) { return by(mpfr_mul, x, y); }
   friend bool operator<=(const Exact& x, const Exact& y) { return mpfr_lessequal_p(x.value_, y.value_) != 0; }
 
  private:
