@@ -297,8 +297,8 @@ class TaylorRun {
 
   std::vector<Real> stateAfter(const Real& tau) {
     std::vector<Real> x(n_);
-    for (std::size_t s = 0; s < n_; ++s)
-      for (int i = options_.order; i >= 0; --i) x[s] = x[s] * tau + here_->series.at(static_cast<int>(s), i);
+    for (std::size_t s = 0; s < n_; ++s)  // in place: numbers may be long
+      for (int i = options_.order; i >= 0; --i) (x[s] *= tau) += here_->series.at(static_cast<int>(s), i);
     return x;
   }
 
@@ -317,9 +317,11 @@ class TaylorRun {
     const std::vector<Real> x = stateAfter(tau), rate = here_->f(Real(t + tau), x);
     std::vector<double> roundings;
     for (std::size_t s = 0; s < n_; ++s) {
-      Real slope(0.0);
-      for (int i = options_.order; i >= 1; --i)
-        slope = slope * tau + Real(i) * here_->series.at(static_cast<int>(s), i);
+      Real slope(0.0), term(0.0);
+      for (int i = options_.order; i >= 1; --i) {
+        term = here_->series.at(static_cast<int>(s), i);
+        (slope *= tau) += term *= i;
+      }
       const Real defect = abs(Real(slope - rate[s])) * h;
       if (defect <= allowed) continue;
       if (roundings.empty()) roundings = roundingsOf(rounded(Real(t + tau)), x);

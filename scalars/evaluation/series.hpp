@@ -22,7 +22,9 @@ class Series {
       : program_(&program),
         size_(order + 1),
         c_(program.nodes().size() * detail::at(size_), S(0.0)),
-        systems_(program.matrices().size()) {}
+        systems_(program.matrices().size()) {
+    for (const Node& n : program.nodes()) stands_.push_back(static_cast<char>(stands(n)));
+  }
 
   /// The constants and parameters; one value a parameter.
   void setParameters(std::span<const S> p) {
@@ -66,10 +68,10 @@ class Series {
   S slopes(int a, int b, int i, int to) {
     S sum(0.0), term(0.0);
     for (int j = 1; j <= to; ++j) {
-      term = S(static_cast<double>(j));
-      sum += (term *= at(a, j)) *= at(b, i - j);
+      term = at(a, j);
+      sum += (term *= j) *= at(b, i - j);
     }
-    return sum / S(static_cast<double>(i));
+    return sum /= i;
   }
   static S difference(const S& x, const S& y) { return x - y; }
   static S quotient(const S& x, const S& y) { return x / y; }
@@ -85,6 +87,25 @@ class Series {
   }
 
  private:
+  /// Whether a node depends on parameters alone: its orders from 1 on are zero.
+  bool stands(const Node& n) const {
+    switch (n.op) {
+      case Op::parameter:
+      case Op::constant:
+        return true;
+      case Op::state:
+      case Op::time:
+      case Op::solution:
+        return false;
+      case Op::add:
+      case Op::sub:
+      case Op::mul:
+        return stands_[detail::at(n.a)] != 0 && stands_[detail::at(n.b)] != 0;
+      default:
+        return stands_[detail::at(n.a)] != 0;
+    }
+  }
+
   int nodeCount() const { return static_cast<int>(program_->nodes().size()); }
 
   void setTime(const S& t0) {
@@ -95,6 +116,7 @@ class Series {
   }
 
   void compute(int node, int i) {
+    if (i > 0 && stands_[detail::at(node)] != 0) return;
     const Node& n = program_->nodes()[detail::at(node)];
     switch (n.op) {
       case Op::state:
@@ -112,11 +134,16 @@ class Series {
         at(node, i) = -at(n.a, i);
         break;
       case Op::mul:
-        at(node, i) = convolution(n.a, n.b, i, 0, i);
+        if (stands_[detail::at(n.a)] != 0)
+          at(node, i) = at(n.a, 0) * at(n.b, i);
+        else if (stands_[detail::at(n.b)] != 0)
+          at(node, i) = at(n.a, i) * at(n.b, 0);
+        else
+          at(node, i) = convolution(n.a, n.b, i, 0, i);
         break;
       case Op::sqr: {
-        S sum(0.0);
-        for (int j = 0; 2 * j < i; ++j) sum = sum + at(n.a, j) * at(n.a, i - j);
+        S sum(0.0), term(0.0);
+        for (int j = 0; 2 * j < i; ++j) sum += (term = at(n.a, j)) *= at(n.a, i - j);
         sum = sum + sum;
         if (i % 2 == 0) sum = sum + square(at(n.a, i / 2));
         at(node, i) = sum;
@@ -163,7 +190,7 @@ class Series {
   int size_;
   std::vector<S> c_;
   std::vector<LinearSystem<S>> systems_;  // of the program's matrices
-  std::vector<char> isFactorised_;
+  std::vector<char> isFactorised_, stands_;
 };
 
 }  // namespace gamut
