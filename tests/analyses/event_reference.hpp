@@ -26,15 +26,12 @@ class EventReference : private Reference {
       series_.solve(t, x);
       Precise h = std::min(reach(), Precise(0.125));
       const std::vector<int> before = signs(t + h * Precise(1e-20), after(h * Precise(1e-20)));
+      const auto left = [&](const Precise& tau) { return leastLeft(before, t + tau, after(tau)); };
       // No more than a part of the step may hide two events of one argument: all of its tenths are looked at.
       for (int part = 1; part <= 10; ++part) {
         Precise high = h * part / 10;
-        if (signs(t + high, after(high)) == before) continue;
-        Precise low = h * (part - 1) / 10;
-        for (int i = 0; i < 130; ++i) {
-          const Precise middle = (low + high) / 2;
-          (signs(t + middle, after(middle)) == before ? low : high) = middle;
-        }
+        if (left(high) > 0) continue;
+        high = behindRoot(left, Precise(part == 1 ? Precise(h * Precise(1e-20)) : Precise(h * (part - 1) / 10)), high);
         h = high + Precise(0x1p-110);  // just behind the event
         ++events;
         break;
@@ -60,6 +57,15 @@ class EventReference : private Reference {
     std::vector<int> result;
     for (const Precise& value : switches_(t, x)) result.push_back(value > 0 ? 1 : value < 0 ? -1 : 0);
     return result;
+  }
+  /// Of the arguments, what is left of the one that is nearest to another sign than it had; zero or less: it is there.
+  Precise leastLeft(const std::vector<int>& before, const Precise& t, const Vector& x) {
+    Precise least(1e300);
+    const Vector values = switches_(t, x);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (before[k] != 0 || values[k] != 0)
+        least = std::min(least, Precise(before[k] != 0 ? Precise(values[k] * before[k]) : Precise(-abs(values[k]))));
+    return least;
   }
   Evaluator<Precise> switches_;
 };

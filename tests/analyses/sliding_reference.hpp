@@ -32,7 +32,7 @@ class SlidingReference {
     p_.assign(start.begin() + n, start.end());
     choices_ = 0;
     moments.clear();
-    phases_.clear();
+    for (auto& [sides, phase] : phases_) phase->setParameters(p_);
     Vector x(start.begin(), start.begin() + n);
     Precise t(0.0);
     sides_.assign(jumpsOf(f_).size(), Side::between);
@@ -65,9 +65,10 @@ class SlidingReference {
       ++events;
       moments.push_back(t.convert_to<double>());
       if (g_) limits.push_back((*phase.outputs)(t, x));
+      const Vector now = phase.all(t, x);
       for (std::size_t k = 0; k < sides_.size(); ++k)
-        if (watched(phase, k, t, x) < -tiny) {
-          const Precise s = phase.all(t, x)[at(k, 1)];
+        if (watched(k, now) < -tiny) {
+          const Precise& s = now[at(k, 1)];
           sides_[k] = sides_[k] == Side::held ? (s > 0 ? Side::above : Side::below) : sideFrom(k, t, x);
         }
       rest_(sides_, p_, x);
@@ -99,12 +100,14 @@ class SlidingReference {
  private:
   static constexpr int order = 30, parts = 32;
   struct Phase {
-    Phase(const Program& onSides, int states, const Vector& p)
+    Phase(const Program& onSides, int states)
         : all(onSides),
           f(Recorder(onSides).finish({onSides.outputNodes().begin(), onSides.outputNodes().begin() + states})),
-          series(f, order) {
+          series(f, order) {}
+    void setParameters(const Vector& p) {
       all.setParameters(p);
       series.setParameters(p);
+      if (outputs) outputs->setParameters(p);
     }
     Evaluator<Precise> all;
     std::optional<Evaluator<Precise>> outputs;
@@ -118,8 +121,9 @@ class SlidingReference {
   Phase& phaseOf(const std::vector<Side>& sides) {
     std::unique_ptr<Phase>& phase = phases_[sides];
     if (phase) return *phase;
-    phase = std::make_unique<Phase>(onSides(f_, sides), f_.states(), p_);
-    if (g_) phase->outputs.emplace(outputsOnSides(f_, *g_, sides)).setParameters(p_);
+    phase = std::make_unique<Phase>(onSides(f_, sides), f_.states());
+    if (g_) phase->outputs.emplace(outputsOnSides(f_, *g_, sides));
+    phase->setParameters(p_);
     return *phase;
   }
   /// f, arguments and their rates, with signs as they are, but for one.
@@ -129,9 +133,8 @@ class SlidingReference {
     for (std::size_t j = 0; j < sides_.size(); ++j) signs.push_back(j == k ? Precise(sign) : now[at(j, 1)]);
     Vector all = p_;
     all.insert(all.end(), signs.begin(), signs.end());
-    Evaluator<Precise> given(given_);
-    given.setParameters(all);
-    return given(t, x);
+    given_.setParameters(all);
+    return given_(t, x);
   }
   Side sideFrom(std::size_t k, const Precise& t, const Vector& x) {
     const Precise up = rates(t, x, k, 1)[at(k, 1)], down = rates(t, x, k, -1)[at(k, 1)];
@@ -140,51 +143,44 @@ class SlidingReference {
     choices_ += isChoice;
     return isChoice && leaves != Side::between ? leaves : up + down > 0 ? Side::above : Side::below;
   }
-  /// Where the last orders are 1e-34 of the states.
+  /// Where the last orders are 1e-34 of the states, by doubles: a step's length may be any.
   Precise reach(Phase& phase) const {
-    Precise largest(0x1p-20), h = Precise(0.125) * share;
+    Precise largest(0x1p-20);
     for (int s = 0; s < f_.states(); ++s)
       largest = std::max({largest, Precise(abs(phase.series.at(s, 0))), Precise(abs(phase.series.at(s, 1)))});
+    double h = -3;  // log2
+    const double size = std::log2(1e-34) + log2Of(largest);
     for (int s = 0; s < f_.states(); ++s)
-      for (int i = order / 2; i <= order; ++i)
-        if (const Precise c = abs(phase.series.at(s, i)); c > 0)
-          h = std::min(h, Precise(share * exp(log(Precise(1e-34) * largest / c) / i)));
-    return h;
+      for (int i = order / 2; i <= order; ++i) h = std::min(h, (size - log2Of(phase.series.at(s, i))) / i);
+    return share * Precise(std::exp2(h));
   }
   Vector after(Phase& phase, const Precise& tau) {
-    Vector x(static_cast<std::size_t>(f_.states()));
-    for (std::size_t s = 0; s < x.size(); ++s)
-      for (int i = order; i >= 0; --i) x[s] = x[s] * tau + phase.series.at(static_cast<int>(s), i);
+    Vector x = sumsOf(phase.series, f_.states(), order, tau);
     rest_(sides_, p_, x);
     return x;
   }
-  /// Negative once the phase is over for jump k.
-  Precise watched(Phase& phase, std::size_t k, const Precise& t, const Vector& x) {
-    const Vector all = phase.all(t, x);
+  /// Negative once the phase is over for jump k; of f, arguments and signs.
+  Precise watched(std::size_t k, const Vector& all) const {
     if (sides_[k] == Side::held) return 1 - all[at(k, 1)] * all[at(k, 1)];
-    return all[at(k, 0)] * static_cast<double>(sides_[k]);
+    return all[at(k, 0)] * static_cast<int>(sides_[k]);
   }
   /// No more than a part of the step may hide two events of one jump: all of its parts are looked at.
   Precise firstEvent(Phase& phase, const Precise& t, const Precise& h) {
-    const auto isOver = [&](const Precise& tau) {
-      const Vector x = after(phase, tau);
-      for (std::size_t k = 0; k < sides_.size(); ++k)
-        if (watched(phase, k, Precise(t + tau), x) < -tiny) return true;
-      return false;
+    const auto left = [&](const Precise& tau) {
+      Precise least(1e300);
+      const Vector all = phase.all(Precise(t + tau), after(phase, tau));
+      for (std::size_t k = 0; k < sides_.size(); ++k) least = std::min(least, Precise(watched(k, all) + tiny));
+      return least;
     };
-    for (int part = 1; part <= parts; ++part) {
-      Precise low = h * (part - 1) / parts, high = h * part / parts;
-      if (!isOver(high)) continue;
-      for (int i = 0; i < 120; ++i) {
-        const Precise middle = (low + high) / 2;
-        (isOver(middle) ? high : low) = middle;
-      }
-      return high;
-    }
+    if (sides_.empty()) return 2 * h;
+    for (int part = 1; part <= parts; ++part)
+      if (const Precise high = h * part / parts; !(left(high) > 0))
+        return behindRoot(left, Precise(h * (part - 1) / parts), high);
     return 2 * h;
   }
 
-  Program f_, given_;
+  Program f_;
+  Evaluator<Precise> given_;
   std::optional<Program> g_;
   Rest rest_;
   Vector p_;
