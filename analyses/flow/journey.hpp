@@ -236,6 +236,8 @@ class FlowFollower {
   std::vector<Interval> outputLimits_;            // of `enclose` too: the outputs, and their limits where they jump
   std::vector<OutputExtremes> extremes_;          // of outputs that are being enclosed; none unless they are wanted
   std::vector<Interval> stateCore_, outputCore_;  // bounds of `enclose` without what remainder and range add at most
+  // By row, the hulls of these of the parts of one step at own times; not of other pieces, which others may follow.
+  std::vector<std::vector<Interval>> knownStates_, knownOutputs_;
 };
 
 }  // namespace gamut

@@ -515,6 +515,8 @@ bool FlowFollower::recordOwnTimes(FlowPiece& piece, bool stopsOnceTurned) {
   stateCore_ = piece.last;
   outputCore_ = outputs;
   if (!isNarrowEnough(piece, began, piece.last, outputs)) return false;
+  knownStates_.assign(task_.times.size(), {});
+  knownOutputs_.assign(task_.times.size(), {});
   if (!tool_->stepper.isOpaque()) OwnRows(*this, piece, stopsOnceTurned).record(rows);
   return true;
 }
@@ -574,7 +576,7 @@ bool FlowFollower::encloseWithin(const std::vector<BoundedPolynomial>& limits, s
     const double* p = &point_.p[i * at(monomialCount_)];
     Interval range = rangeOf({{p, p + monomialCount_}});
     double gap = 0;
-    if (!liesWithin(collected_.stateCore[row], i, inflated(range, point_.radius[i]))) {
+    if (!liesWithin(knownStates_[row], i, inflated(range, point_.radius[i]))) {
       range = tool_->range(p, whole_, rangeTolerance_);
       gap = tool_->range.gap();
       range = intersection(range, rangeWithin(limits, monomials, p, monomials, tool_->range));
@@ -612,7 +614,7 @@ void FlowFollower::appendWithin(OutputTools& tools, const FlowPiece& own, const 
   }
   for (int o = 0; o < outputs_->count() && !limits.empty(); ++o) {
     const double radius = outputs_->radius(o);
-    if (!std::isfinite(radius) || liesWithin(collected_.outputCore[row], at(o), outputs[at(o)])) continue;
+    if (!std::isfinite(radius) || liesWithin(knownOutputs_[row], at(o), outputs[at(o)])) continue;
     narrow(at(o), inflated(rangeWithin(limits, tool_->stepper.monomials(), outputs_->polynomial(o),
                                        *outputs_->monomials(), *outputRange_),
                            radius));
@@ -642,8 +644,8 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, FlowPoin
   extremes_.resize(extremesAt(row));
   if (OutputTools* const tools = outputsOnSides(piece)) appendWithin(*tools, own, limits, row, states, outputs);
   if (const auto model = modelOutputs(own, outputLimits_, row)) collected_.models[row].push_back(model);
-  joinHulls(collected_.stateCore[row], stateCore_);
-  joinHulls(collected_.outputCore[row], outputCore_);
+  for (auto* into : {&collected_.stateCore, &knownStates_}) joinHulls((*into)[row], stateCore_);
+  for (auto* into : {&collected_.outputCore, &knownOutputs_}) joinHulls((*into)[row], outputCore_);
   takeExtremes(row);
   encloseLevels(own, row);
   lookAside(own, row, states);
