@@ -25,6 +25,11 @@ class FlowRun;
 
 /// One sub-box on its way, with what is known at its last boundary.
 struct FlowPiece {
+  /// By output time.
+  struct Known {
+    std::vector<std::vector<Interval>> states, outputs;
+  };
+
   FlowSet set;
   std::size_t layout = 0;                          // which monomials it uses
   std::size_t next = 0;                            // index of its next output time
@@ -48,6 +53,9 @@ struct FlowPiece {
   bool hasJustTurned = false;         // its solutions each at a time of its own (FlowSet::ahead)
   std::size_t fewer = 2;              // layouts by which outputs have less than states between two output times
   std::size_t inFull = 0;             // times that chords were loaded since that was 0
+  /// At own times, the hulls of stateCore_ and outputCore_ so far: ranges inside need not be found closely. Not of
+  /// other pieces, which other threads may have followed.
+  Known known;
 };
 
 /// A piece that goes on as two, if it may.
@@ -236,8 +244,7 @@ class FlowFollower {
   std::vector<Interval> outputLimits_;            // of `enclose` too: the outputs, and their limits where they jump
   std::vector<OutputExtremes> extremes_;          // of outputs that are being enclosed; none unless they are wanted
   std::vector<Interval> stateCore_, outputCore_;  // bounds of `enclose` without what remainder and range add at most
-  // By row, the hulls of these of the parts of one step at own times; not of other pieces, which others may follow.
-  std::vector<std::vector<Interval>> knownStates_, knownOutputs_;
+  FlowPiece::Known known_;                        // of the piece at hand
 };
 
 }  // namespace gamut

@@ -515,9 +515,14 @@ bool FlowFollower::recordOwnTimes(FlowPiece& piece, bool stopsOnceTurned) {
   stateCore_ = piece.last;
   outputCore_ = outputs;
   if (!isNarrowEnough(piece, began, piece.last, outputs)) return false;
-  knownStates_.assign(task_.times.size(), {});
-  knownOutputs_.assign(task_.times.size(), {});
-  if (!tool_->stepper.isOpaque()) OwnRows(*this, piece, stopsOnceTurned).record(rows);
+  if (tool_->stepper.isOpaque()) return true;
+  known_ = std::move(piece.known);
+  for (auto* of : {&known_.states, &known_.outputs}) {
+    of->resize(task_.times.size());
+    for (std::size_t row = 0; row < rows.front(); ++row) (*of)[row] = {};  // behind it
+  }
+  OwnRows(*this, piece, stopsOnceTurned).record(rows);
+  piece.known = std::move(known_);
   return true;
 }
 
@@ -576,7 +581,7 @@ bool FlowFollower::encloseWithin(const std::vector<BoundedPolynomial>& limits, s
     const double* p = &point_.p[i * at(monomialCount_)];
     Interval range = rangeOf({{p, p + monomialCount_}});
     double gap = 0;
-    if (!liesWithin(knownStates_[row], i, inflated(range, point_.radius[i]))) {
+    if (!liesWithin(known_.states[row], i, inflated(range, point_.radius[i]))) {
       range = tool_->range(p, whole_, rangeTolerance_);
       gap = tool_->range.gap();
       range = intersection(range, rangeWithin(limits, monomials, p, monomials, tool_->range));
@@ -614,7 +619,7 @@ void FlowFollower::appendWithin(OutputTools& tools, const FlowPiece& own, const 
   }
   for (int o = 0; o < outputs_->count() && !limits.empty(); ++o) {
     const double radius = outputs_->radius(o);
-    if (!std::isfinite(radius) || liesWithin(knownOutputs_[row], at(o), outputs[at(o)])) continue;
+    if (!std::isfinite(radius) || liesWithin(known_.outputs[row], at(o), outputs[at(o)])) continue;
     narrow(at(o), inflated(rangeWithin(limits, tool_->stepper.monomials(), outputs_->polynomial(o),
                                        *outputs_->monomials(), *outputRange_),
                            radius));
@@ -644,8 +649,8 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, FlowPoin
   extremes_.resize(extremesAt(row));
   if (OutputTools* const tools = outputsOnSides(piece)) appendWithin(*tools, own, limits, row, states, outputs);
   if (const auto model = modelOutputs(own, outputLimits_, row)) collected_.models[row].push_back(model);
-  for (auto* into : {&collected_.stateCore, &knownStates_}) joinHulls((*into)[row], stateCore_);
-  for (auto* into : {&collected_.outputCore, &knownOutputs_}) joinHulls((*into)[row], outputCore_);
+  for (auto* into : {&collected_.stateCore, &known_.states}) joinHulls((*into)[row], stateCore_);
+  for (auto* into : {&collected_.outputCore, &known_.outputs}) joinHulls((*into)[row], outputCore_);
   takeExtremes(row);
   encloseLevels(own, row);
   lookAside(own, row, states);
