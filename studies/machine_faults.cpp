@@ -20,9 +20,8 @@
 namespace gamut {
 namespace {
 
-[[noreturn]] void refuse(const std::string& place, std::string what, const std::string& expected) {
-  std::ranges::replace(what, ';', ',');  // one line has one semicolon, in front of what was expected
-  throw StudyError(place, what, expected);
+[[noreturn]] void refuse(const std::string& place, const std::string& what, const std::string& expected) {
+  throw StudyError(place, withoutSemicolons(what), expected);
 }
 
 /// Of a number in recorded equations: the quantities that are open have these values, all others are constant.

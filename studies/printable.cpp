@@ -110,6 +110,11 @@ std::string shortened(std::string_view text, std::size_t most) {
   return fmt::format("{} \u2026 ({} characters) \u2026 {}", text.substr(0, begin), text.size(), text.substr(end));
 }
 
+std::string withoutSemicolons(std::string sentence) {
+  std::ranges::replace(sentence, ';', ',');
+  return sentence;
+}
+
 std::string complaintAt(std::string_view place, std::string_view what, std::string_view expected) {
   constexpr std::size_t most = 600, mostExpected = 1500;
   return printable(fmt::format("{}: {}; expected {}", place, shortened(what, most), shortened(expected, mostExpected)));

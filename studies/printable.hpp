@@ -24,6 +24,9 @@ std::string printableLines(std::string_view text);
 /// The text, or, if it is longer than `most` bytes, its begin and its end, and how long it is.
 std::string shortened(std::string_view text, std::size_t most);
 
+/// A sentence as what a line has in front of its one semicolon: its own ones become commas.
+std::string withoutSemicolons(std::string sentence);
+
 /// "PLACE: WHAT; expected EXPECTED", printable and not too long to be read, whatever of a file is quoted in it.
 std::string complaintAt(std::string_view place, std::string_view what, std::string_view expected);
 

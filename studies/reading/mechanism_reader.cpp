@@ -94,6 +94,8 @@ class MechanismReader {
         mechanism_.add(element.element);
       } catch (const WrongNumber& error) {
         guarded(node, [&]() -> void { throw error; });
+      } catch (const Refusal& error) {
+        refuseRobot(robot, element.line, error.problem(), error.expected());
       } catch (const std::invalid_argument& error) {
         refuseRobot(robot, element.line, error.what());
       }
@@ -112,9 +114,10 @@ class MechanismReader {
     }
   }
 
-  [[noreturn]] static void refuseRobot(const Robot& robot, int line, std::string what) {
-    std::ranges::replace(what, ';', ',');
-    throw StudyError(fmt::format("{}:{}", robot.file, line), what, "a robot whose parts fit together");
+  [[noreturn]] static void refuseRobot(const Robot& robot, int line, const std::string& what,
+                                       const std::string& expected = "") {
+    throw StudyError(fmt::format("{}:{}", robot.file, line), withoutSemicolons(what),
+                     expected.empty() ? "a robot whose parts fit together" : expected);
   }
 
   /// Every value in tables within tables, by the names of all of them.

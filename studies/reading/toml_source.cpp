@@ -170,9 +170,7 @@ std::string TomlSource::note(const toml::node& at, const std::string& text) cons
 }
 
 void TomlSource::failWith(const toml::node& at, const std::string& sentence, const std::string& expected) const {
-  std::string what = sentence;  // one line has one semicolon, in front of what was expected
-  std::replace(what.begin(), what.end(), ';', ',');
-  fail(at, what, expected);
+  fail(at, withoutSemicolons(sentence), expected);
 }
 
 std::string TomlSource::asText(const toml::node& node, const std::string& what) const {
