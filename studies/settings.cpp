@@ -81,8 +81,8 @@ void describeOutput(Settings& s, Study&) {
 void describeRequirement(Settings& s, Study&) {
   s.own({"always",
          "a comparison with `<`, `<=`, `>` or `>=`, or two in one direction, of expressions as in an output, or of "
-         "names of outputs; a number without a unit is in the SI unit of what it is compared with: met at all times of "
-         "the window",
+         "names of outputs (one that is called like another quantity, `t` or `pi` is refused); a number without a unit "
+         "is in the SI unit of what it is compared with: met at all times of the window",
          "this or `eventually` is required"},
         text);
   s.own({"eventually", "the same, met at one time of the window at least", "this or `always` is required"}, text);

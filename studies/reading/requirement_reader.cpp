@@ -269,6 +269,7 @@ class RequirementReader {
                    fmt::format("the {} limit first", isGreater ? "greater" : "lesser"));
   }
 
+  /// A magnitude that is to lie below a number.
   void refuseNegative(const toml::node& node, const std::string& text, const Side& limit, bool isStrict) const {
     const std::optional<Amount> amount = limit.expression.amount();
     if (!amount) return;
@@ -319,7 +320,9 @@ class RequirementReader {
   void refuseTwoMeanings(const toml::node& node, const std::string& name) const {
     if (name != "t" && !isQuantity(name)) return;
     const auto found = std::ranges::find(outputs_, name, &WantedOutput::name);
-    if (found != outputs_.end() && found->quantity != name)
+    if (found == outputs_.end()) return;
+    const auto form = found->expression.affineIn(Expression::named(name));
+    if (!form || !isEqual(form->factor, Interval(1.0)) || !isEqual(form->offset, Interval(0.0)))
       source_.fail(
           node,
           fmt::format("'{}' is a quantity as well as an output, which is another one, '{}'", name, found->quantity),

@@ -152,6 +152,9 @@ TEST(Requirements, ThatMakeNoSenseAreRefusedInOneLine) {
         refusal("always = \"" + std::string(name) + " < 1\"\n\n" + other),
         says("' is a quantity as well as an output, which is another one, '2*hinge.angle'; expected another name"));
   }
+  for (const char* same : {" hinge.angle ", "'hinge.angle'"})
+    EXPECT_NO_THROW(refusal("always = \"hinge.angle < 1\"\n\n[[output]]\nname = \"hinge.angle\"\nquantity = \"" +
+                            std::string(same) + "\"")());
   const std::string named = "\n\n[[output]]\nname = \"pi\"\nquantity = \"hinge.angle\"";
   EXPECT_THAT(refusal("always = \"2*pi < 1\"" + named), says("'pi' is a number as well as an output; expected the"));
   EXPECT_NO_THROW(refusal("always = \"'pi' < 1\"" + named)());
