@@ -29,7 +29,7 @@ class ShortWay {
     Interval last(0.0), u(1.0);
     for (int n = 0; n < terms; ++n) {
       const double power = n + 1;
-      part_[static_cast<std::size_t>(n)] = dense * u / power;
+      part_[n] = dense * u / power;
       const Interval next = -(z * u + last) / power;
       last = u, u = next;
     }
@@ -58,7 +58,7 @@ const ShortWay& shortWayTo(double z) {
     for (int i = -last; i <= last; ++i) made.emplace_back(static_cast<double>(i) / ShortWay::perUnit);
     return made;
   }();
-  return all[static_cast<std::size_t>(std::lround((z + ShortWay::most) * ShortWay::perUnit))];
+  return all[std::lround((z + ShortWay::most) * ShortWay::perUnit)];
 }
 
 }  // namespace

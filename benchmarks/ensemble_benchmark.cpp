@@ -115,11 +115,11 @@ std::array<long double, 4> extrapolated(const std::vector<double>& start) {
         for (std::size_t i = 0; i < 4; ++i) before[i] += 2 * h * rate[i];
         std::swap(before, now);
       }
-      table[static_cast<std::size_t>(row)] = now;
+      table[row] = now;
       // Aitken and Neville's rule, in place: table[k] holds what rows k … row give together.
       for (int k = row - 1; k >= 0; --k) {
         const long double ratio = static_cast<long double>(row + 1) / (k + 1), by = 1 / (ratio * ratio - 1);
-        Long& coarser = table[static_cast<std::size_t>(k)];
+        Long& coarser = table[k];
         const Long& finer = table[static_cast<std::size_t>(k) + 1];
         for (std::size_t i = 0; i < 4; ++i) coarser[i] = finer[i] + (finer[i] - coarser[i]) * by;
       }

@@ -21,9 +21,9 @@ Program systemProgram(MatrixKind kind, int n) {
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         const int row = std::max(i, j), column = std::min(i, j);
-        matrix[static_cast<std::size_t>(i * n + j)] = x[static_cast<std::size_t>(row * (row + 1) / 2 + column)];
+        matrix[i * n + j] = x[row * (row + 1) / 2 + column];
       }
-    for (int i = 0; i < n; ++i) solution.push_back(x[static_cast<std::size_t>(entries + i)]);
+    for (int i = 0; i < n; ++i) solution.push_back(x[entries + i]);
     LinearSystem<Recorded>(kind, n, matrix).solve(solution);
     for (std::size_t i = 0; i < solution.size(); ++i) y[i] = solution[i];
   });

@@ -154,16 +154,14 @@ Case chainOfMasses() {
   Case c{"chainOfMasses10",
          record(2 * masses, 10,
                 [](auto, const auto& x, const auto& p, auto& dx) {
-                  const auto place = [&](int i) {
-                    return i < 0 || i >= masses ? Recorded(0.0) : x[static_cast<std::size_t>(i)];
-                  };
+                  const auto place = [&](int i) { return i < 0 || i >= masses ? Recorded(0.0) : x[i]; };
                   for (int i = 0; i < masses; ++i) {
                     const auto force = [&](int spring) {
                       const Recorded stretch = place(spring) - place(spring - 1);
-                      return p[static_cast<std::size_t>(spring % 10)] * (stretch + stretch * sqr(stretch));
+                      return p[spring % 10] * (stretch + stretch * sqr(stretch));
                     };
-                    dx[static_cast<std::size_t>(i)] = x[static_cast<std::size_t>(masses + i)];
-                    dx[static_cast<std::size_t>(masses + i)] = force(i + 1) - force(i);
+                    dx[i] = x[masses + i];
+                    dx[masses + i] = force(i + 1) - force(i);
                   }
                 }),
          {},

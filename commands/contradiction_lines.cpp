@@ -93,7 +93,7 @@ std::string contradictionsText(const std::vector<Contradiction>& found, bool mov
       names.push_back(c.name);
       lines.push_back(fmt::format("  {}: {}{}", c.name, contradictionText(c, moves),
                                   isProved && !c.isProof ? " (of another question: no error)" : ""));
-    } else if (std::string& line = lines[static_cast<std::size_t>(known - names.begin())];
+    } else if (std::string& line = lines[known - names.begin()];
                line.find(nameOf(c)) == std::string::npos && c.of != Contradiction::Of::tube) {
       line += (line.find("; likewise ") == std::string::npos ? "; likewise " : ", ") + nameOf(c);
     }

@@ -19,7 +19,7 @@ Program withDerivatives(const Expression& expression, const std::vector<std::str
   const Program f = record(1, static_cast<int>(parameters.size()), 1, [&](auto, const auto& t, const auto& p, auto& y) {
     y[0] = expression.evaluate<Recorded>([&](const std::string& name) {
       const auto parameter = std::find(parameters.begin(), parameters.end(), name);
-      return parameter == parameters.end() ? t[0] : p[static_cast<std::size_t>(parameter - parameters.begin())];
+      return parameter == parameters.end() ? t[0] : p[parameter - parameters.begin()];
     });
   });
   return f.differentiated().differentiated();  // f, f', then the derivatives of both

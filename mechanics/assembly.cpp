@@ -144,7 +144,7 @@ template <class Of>
 void Assembly<S>::measureVector(const std::string& name, bool isSolved, const Of& of,
                                 const std::array<const char*, 3>& keys) {
   for (int i = 0; i < 3; ++i) {
-    const std::string component = name + "." + keys[static_cast<std::size_t>(i)];
+    const std::string component = name + "." + keys[i];
     const Signal<S> value = [of, i] { return S(of()[i]); };
     if (isSolved)
       parts_.measureSolvedAs(component, value);

@@ -9,7 +9,7 @@ namespace gamut {
 Axis::Axis(double x, double y, double z) : direction_{x, y, z} {
   int zeros = 0, last = -1;
   for (int i = 0; i < 3; ++i) {
-    const double component = direction_[static_cast<std::size_t>(i)];
+    const double component = direction_[i];
     if (!std::isfinite(component)) throw std::invalid_argument("an axis needs three finite components");
     if (component == 0)
       ++zeros;
@@ -19,7 +19,7 @@ Axis::Axis(double x, double y, double z) : direction_{x, y, z} {
   if (zeros == 3) throw std::invalid_argument("an axis needs a direction, but all three components are zero");
   if (zeros < 2) return;
   index_ = last;
-  sign_ = direction_[static_cast<std::size_t>(last)] < 0 ? -1 : 1;
+  sign_ = direction_[last] < 0 ? -1 : 1;
 }
 
 bool Axis::isParallelTo(const Axis& other) const {
@@ -35,7 +35,7 @@ bool Axis::isParallelTo(const Axis& other) const {
 std::array<double, 3> Axis::direction() const {
   if (!isAligned()) return direction_;
   std::array<double, 3> u = {0.0, 0.0, 0.0};
-  u[static_cast<std::size_t>(index_)] = sign_;
+  u[index_] = sign_;
   return u;
 }
 

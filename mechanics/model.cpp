@@ -19,8 +19,7 @@ std::vector<char> dependents(const Program& f, std::size_t state) {
   for (std::size_t i = 0; i < f.nodes().size(); ++i) {
     const Node& node = f.nodes()[i];
     bool does = node.op == Op::state && static_cast<std::size_t>(node.a) == state;
-    detail::forEachOperand(f.table(), static_cast<int>(i),
-                           [&](int operand) { does = does || result[static_cast<std::size_t>(operand)] != 0; });
+    detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) { does = does || result[operand] != 0; });
     result.push_back(static_cast<char>(does));
   }
   return result;
@@ -44,11 +43,10 @@ void checkTurns(const Mechanism& mechanism, const std::vector<std::string>& free
     const auto speed = static_cast<std::size_t>(std::ranges::find(names, joint.rate) - names.begin());
     const std::vector<char> depends = dependents(f, speed);
     for (const int jump : jumpsOf(f)) {
-      const int u = f.nodes()[static_cast<std::size_t>(jump)].a;
+      const int u = f.nodes()[jump].a;
       const auto form = linearFormOf(f, u);
       // Where another state is in it, linearly, the surface is another one.
-      if (depends[static_cast<std::size_t>(u)] == 0 ||
-          (form && std::ranges::count_if(form->states, [](double c) { return c != 0; }) > 1))
+      if (depends[u] == 0 || (form && std::ranges::count_if(form->states, [](double c) { return c != 0; }) > 1))
         continue;
       throw UnfitPart(joint.name,
                       "the joint '" + joint.name + "' strikes a rigid end, and something jumps with the sign of '" +

@@ -19,7 +19,7 @@ template <class S>
 auto Axis::unit() const {
   const std::array<Interval, 3> own = enclosure();
   Vector3<S> u;
-  for (int i = 0; i < 3; ++i) u[i] = constant<S>(own[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < 3; ++i) u[i] = constant<S>(own[i]);
   return u;
 }
 

@@ -108,7 +108,7 @@ std::vector<S> componentsOf(const List& list, const VectorOf& vectorOf) {
 template <class S>
 MovingPoint<S> movingPoint(const Assembly<S>& assembly, const Skeleton::Point& point) {
   Vector3<S> offset;
-  for (int i = 0; i < 3; ++i) offset[i] = assembly.number(point.offset[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < 3; ++i) offset[i] = assembly.number(point.offset[i]);
   return assembly.frame(point.frame).inInertial({offset, zeroVector<S>()});
 }
 

@@ -22,7 +22,7 @@ std::optional<Axis> knownAxis(const Vector3<Recorded>& u) {
   for (int i = 0; i < 3; ++i) {
     const int node = u[i].node();
     const Recorder* recorder = Recorder::current();
-    double& component = direction[static_cast<std::size_t>(i)];
+    double& component = direction[i];
     component = recorder->isExactly(node, 1.0) ? 1.0 : recorder->isExactly(node, -1.0) ? -1.0 : 0.0;
     if (component == 0.0 && !isKnownZero(u[i])) return std::nullopt;
     ones += component != 0.0;

@@ -1,4 +1,5 @@
-// Programs count nodes, states and monomials by int, since a node may be missing (-1); containers count by std::size_t.
+// Programs count nodes, states and monomials by int, since a node may be missing (-1); containers count by std::size_t,
+// which an index that is not negative becomes by itself. Where sizes are multiplied or compared they are made so.
 #pragma once
 
 #include <cstddef>

@@ -83,7 +83,7 @@ std::vector<Recorded> written(const Program& f, const std::vector<Recorded>& x, 
   instead[x.size() + p.size()] = t.node();
   const std::vector<int> here = Recorder::current()->append(f, parameters, instead);
   std::vector<Recorded> y;
-  for (const int output : f.outputNodes()) y.push_back(Recorded::node(here[detail::at(output)]));
+  for (const int output : f.outputNodes()) y.push_back(Recorded::node(here[output]));
   return y;
 }
 

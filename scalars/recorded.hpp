@@ -324,7 +324,7 @@ requires(N >= 0) Program record(Function&& function, RuleSet rules = RuleSet::al
   Recorder recorder(N, 0, rules);
   const RecordingGuard guard(recorder);
   detail::Checked<std::array<Recorded, static_cast<std::size_t>(N)>> x;
-  for (int i = 0; i < N; ++i) x[detail::at(i)] = Recorded::node(recorder.state(i));
+  for (int i = 0; i < N; ++i) x[i] = Recorded::node(recorder.state(i));
   return recorder.finish(detail::outputNodes(detail::applied(function, x)));
 }
 

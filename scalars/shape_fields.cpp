@@ -10,8 +10,8 @@ std::vector<double> roundedOutward(const StatedNumbers& numbers) {
   for (const StatedNumber& number : numbers) found.push_back(number.nearest);
   if (found.empty()) return found;
   const auto [least, greatest] = std::ranges::minmax_element(found);
-  *least = numbers[static_cast<std::size_t>(least - found.begin())].enclosed.lower();
-  *greatest = numbers[static_cast<std::size_t>(greatest - found.begin())].enclosed.upper();
+  *least = numbers[least - found.begin()].enclosed.lower();
+  *greatest = numbers[greatest - found.begin()].enclosed.upper();
   return found;
 }
 

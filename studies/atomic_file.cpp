@@ -137,7 +137,7 @@ int list(const std::string& part, int file) {
 }
 
 void unlist(int number) {
-  if (number >= 0) unfinished[static_cast<std::size_t>(number)].state = Unfinished::isFree;
+  if (number >= 0) unfinished[number].state = Unfinished::isFree;
 }
 
 }  // namespace

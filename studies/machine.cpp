@@ -126,8 +126,7 @@ void takeLevels(Machine& machine) {
     machine.alpha.push_back(levelOf(j, levels));
     Box& level = machine.levels.emplace_back(machine.box);
     for (std::size_t i = 0; i < machine.motion.uncertain.size(); ++i)
-      level[static_cast<std::size_t>(machine.motion.slot[i])] =
-          machine.motion.uncertain[i].membership.cut(machine.alpha.back());
+      level[machine.motion.slot[i]] = machine.motion.uncertain[i].membership.cut(machine.alpha.back());
   }
 }
 

@@ -29,7 +29,7 @@ Recorded valueOf(const Mechanism& mechanism, const Expression& number, const std
                  const std::vector<Recorded>& values) {
   return number.evaluate<Recorded>([&](const std::string& name) -> Recorded {
     const auto found = std::ranges::find(open, name);
-    if (found != open.end()) return values[static_cast<std::size_t>(found - open.begin())];
+    if (found != open.end()) return values[found - open.begin()];
     const Mechanism::Derived* derived = mechanism.derived().find(name);
     return derived != nullptr ? valueOf(mechanism, derived->formula, open, values)
                               : constant<Recorded>(mechanism.nominal(name));

@@ -97,7 +97,7 @@ void Settlement::compareSome(const Envelope& bounds, int level, SampleBlock& blo
   }
   if (places.empty()) return;
   ComparisonOptions options = options_;
-  char& refuted = refuted_[static_cast<std::size_t>(level + 1)];
+  char& refuted = refuted_[level + 1];
   options.asksArbiter = options.asksArbiter && refuted == 0;
   options.known = &known_;
   SomeOfBlock some(block, places);
@@ -118,9 +118,7 @@ bool Settlement::leaves(const SampleBlock& block, std::size_t sample, std::size_
 void Settlement::tellOf(const SampleBlock& block, std::size_t sample, std::size_t cell, const Take& take) const {
   const std::size_t outputs = known_.outputs;
   int level = proved_.enclosure.empty() ? 0 : -1;
-  const auto boundsOf = [&] {
-    return &(level < 0 ? proved_.enclosure : proved_.cuts[static_cast<std::size_t>(level)]);
-  };
+  const auto boundsOf = [&] { return &(level < 0 ? proved_.enclosure : proved_.cuts[level]); };
   while (level + 1 < static_cast<int>(block.levels[sample]) && !leaves(block, sample, cell, *boundsOf())) ++level;
   const Envelope& bounds = *boundsOf();
   Dispute d;

@@ -17,15 +17,15 @@ using detail::at;
 
 /// The blocks of a matrix that no entry connects: of each row, its number. Entries that are 0 connect nothing.
 std::vector<int> blocksOf(const Program& program, const LinearMatrix& matrix) {
-  std::vector<int> block(at(matrix.size));
-  for (int i = 0; i < matrix.size; ++i) block[at(i)] = i;
+  std::vector<int> block(matrix.size);
+  for (int i = 0; i < matrix.size; ++i) block[i] = i;
   const auto isZero = [&](int node) {
-    const Node& n = program.nodes()[at(node)];
-    return n.op == Op::constant && magnitude(program.constants()[at(n.a)]) == 0;
+    const Node& n = program.nodes()[node];
+    return n.op == Op::constant && magnitude(program.constants()[n.a]) == 0;
   };
   for (int i = 0; i < matrix.size; ++i)
     for (int j = 0; j < matrix.size; ++j)
-      if (const int from = block[at(i)], to = block[at(j)]; from != to && !isZero(matrix.entry(i, j)))
+      if (const int from = block[i], to = block[j]; from != to && !isZero(matrix.entry(i, j)))
         std::ranges::replace(block, from, to);
   return block;
 }
@@ -34,15 +34,15 @@ std::vector<int> blocksOf(const Program& program, const LinearMatrix& matrix) {
 /// entries of A and r in that block.
 std::vector<char> movedComponents(const Program& program, const LinearSolution& solution,
                                   const std::vector<char>& moved) {
-  const LinearMatrix& matrix = program.matrices()[at(solution.matrix)];
+  const LinearMatrix& matrix = program.matrices()[solution.matrix];
   const std::vector<int> block = blocksOf(program, matrix);
   std::vector<char> isMoved(block.size(), 0);  // by the number of the block
   for (int i = 0; i < matrix.size; ++i) {
-    isMoved[at(block[at(i)])] |= moved[at(solution.rightSide[at(i)])];
-    for (int j = 0; j < matrix.size; ++j) isMoved[at(block[at(i)])] |= moved[at(matrix.entry(i, j))];
+    isMoved[block[i]] |= moved[solution.rightSide[i]];
+    for (int j = 0; j < matrix.size; ++j) isMoved[block[i]] |= moved[matrix.entry(i, j)];
   }
   std::vector<char> components;
-  for (const int of : block) components.push_back(isMoved[at(of)]);
+  for (const int of : block) components.push_back(isMoved[of]);
   return components;
 }
 
@@ -52,17 +52,17 @@ std::vector<char> movedBy(const Program& program, const std::vector<char>& state
   std::vector<char> moved(program.nodes().size(), 0), components;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const Node& n = program.nodes()[i];
-    if (n.op == Op::state) moved[i] = states[at(n.a)];
-    if (n.op == Op::parameter) moved[i] = parameters[at(n.a)];
+    if (n.op == Op::state) moved[i] = states[n.a];
+    if (n.op == Op::parameter) moved[i] = parameters[n.a];
     if (n.op == Op::solution) {
-      if (n.b == 0) components = movedComponents(program, program.solutions()[at(n.a)], moved);
-      moved[i] = components[at(n.b)];
+      if (n.b == 0) components = movedComponents(program, program.solutions()[n.a], moved);
+      moved[i] = components[n.b];
     } else {
-      detail::forEachOperand(program.table(), static_cast<int>(i), [&](int node) { moved[i] |= moved[at(node)]; });
+      detail::forEachOperand(program.table(), static_cast<int>(i), [&](int node) { moved[i] |= moved[node]; });
     }
   }
   std::vector<char> outputs;
-  for (const int node : program.outputNodes()) outputs.push_back(moved[at(node)]);
+  for (const int node : program.outputNodes()) outputs.push_back(moved[node]);
   return outputs;
 }
 
@@ -72,7 +72,7 @@ std::vector<char> movedOutputs(const UncertainMotion& system) {
   const Motion& motion = system.motion;
   const std::size_t n = at(motion.f.states());
   std::vector<char> states(n, 0), parameters(at(motion.f.parameters()), 0);
-  for (const int slot : system.slot) (at(slot) < n ? states[at(slot)] : parameters[at(slot) - n]) = 1;
+  for (const int slot : system.slot) (at(slot) < n ? states[slot] : parameters[at(slot) - n]) = 1;
   for (bool isMore = true; isMore;) {  // until no rate depends on more
     // Both forms are of the same equations: what one of them shows not to depend does not.
     const std::vector<char> rates = movedBy(motion.f, states, parameters);

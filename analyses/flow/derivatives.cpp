@@ -43,7 +43,7 @@ const Program& checkedForJumps(const Program& f, const std::vector<int>& by) {
   for (std::size_t i = 0; i < varies.size(); ++i) {
     const Node& v = f.nodes()[i];
     varies[i] = v.op == Op::state || (v.op == Op::parameter && std::ranges::find(by, f.states() + v.a) != by.end());
-    detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) { varies[i] |= varies[at(operand)]; });
+    detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) { varies[i] |= varies[operand]; });
     requireThat(v.op != Op::sign || !varies[i],
                 "there are no derivatives across a jump (sign, where) of what they are by");
   }

@@ -40,7 +40,7 @@ Embedding::Embedding(const Box& box, int states, const std::vector<VaryingParame
 void Embedding::takeDigitsOf(const std::vector<PreciseValue>& values) {
   for (const PreciseValue& value : values) {
     const auto [high, low] = detail::exactSum(value.high, value.low);
-    components[at(value.component)] = {high, 0, value.radius, -1, low};
+    components[value.component] = {high, 0, value.radius, -1, low};
   }
 }
 
@@ -50,10 +50,10 @@ bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<
     const Embedded& e = embedding.components[i];
     if (e.symbol < 0) continue;
     const Interval study = (level[i] - Interval(e.centre)) / Interval(e.half);
-    const Interval own = (study - Interval(centre[at(e.symbol)])) / Interval(half[at(e.symbol)]);
+    const Interval own = (study - Interval(centre[e.symbol])) / Interval(half[e.symbol]);
     const Interval part = intersection(own, Interval(-1.0, 1.0));
     if (isEmpty(part)) return false;
-    xi[at(e.symbol)] = part;
+    xi[e.symbol] = part;
   }
   return true;
 }
@@ -77,11 +77,11 @@ OutputExtremes extremesOf(const PolynomialRange& range, const Box& box, const Em
 namespace {}  // namespace
 
 double countOfMonomials(const std::vector<int>& weights, int degree) {
-  std::vector<double> count(at(degree + 1), 0.0);  // of each grade
+  std::vector<double> count(degree + 1, 0.0);  // of each grade
   count[0] = 1;
   for (const int weight : weights)
     for (int grade = std::min(weight, degree); grade <= degree; ++grade)
-      count[at(grade)] += count[at(grade - std::min(weight, degree))];
+      count[grade] += count[grade - std::min(weight, degree)];
   return std::accumulate(count.begin(), count.end(), 0.0);
 }
 
@@ -112,8 +112,8 @@ void measureInfluence(const double* polynomial, const Monomials& m, std::vector<
     all += size;
     for (int l = 0; l < symbols; ++l)
       if (m.exponent(g, l) > 0) {
-        mass[at(l)].any += size;
-        if (g != m.linear(l)) mass[at(l)].nonlinear += size;
+        mass[l].any += size;
+        if (g != m.linear(l)) mass[l].nonlinear += size;
       }
   }
   if (!(all > 0)) return;
@@ -130,19 +130,19 @@ Emphasis emphasisOf(const std::vector<Influence>& influence, double negligible, 
   std::vector<int>& weights = emphasis.weights;
   std::vector<int> order(influence.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](int l) { return influence[at(l)].any; });
+  std::ranges::sort(order, {}, [&](int l) { return influence[l].any; });
   const double ratio = std::log(std::clamp(greatest, 0.02, 0.1));
   double carried = 0, squares = 0;
   if (!std::ranges::any_of(influence, [](const Influence& of) { return of.any > 0; }))
     order.clear();  // nothing is known
   for (const int l : order) {
-    const Influence& of = influence[at(l)];
+    const Influence& of = influence[l];
     squares += of.any * of.any;
     if (carried += of.any; carried <= 5 * negligible * share) {
-      weights[at(l)] = 0;
+      weights[l] = 0;
     } else if (of.nonlinear < negligible * greatest) {
       const double grades = of.nonlinear > 0 ? std::log(of.nonlinear / greatest) / ratio : mostWeight;
-      weights[at(l)] = static_cast<int>(std::clamp(1.3 + grades, 1.0, static_cast<double>(mostWeight)));
+      weights[l] = static_cast<int>(std::clamp(1.3 + grades, 1.0, static_cast<double>(mostWeight)));
     }
   }
   emphasis.effective = squares > 0 ? carried * carried / squares : static_cast<double>(influence.size());
@@ -164,20 +164,20 @@ FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, i
   FlowSet s;
   const int N = monomials.count();
   s.powers = at(monomials.countUpTo(frameDegree));
-  s.p.assign(at(n * N), 0.0);
-  s.C.assign(at(n * n), 0.0);
-  s.R.assign(at(n), 0.0);
-  s.W.assign(at(n), 0.0);
+  s.p.assign(n * N, 0.0);
+  s.C.assign(n * n, 0.0);
+  s.R.assign(n, 0.0);
+  s.W.assign(n, 0.0);
   for (int i = 0; i < n; ++i) {
-    const Embedded& e = embedding.components[at(i)];
-    s.p[at(i * N)] = e.centre;
-    if (e.symbol >= 0) s.p[at(i * N + monomials.linear(e.symbol))] = e.half;
-    s.R[at(i)] = e.coarseRadius();
-    s.C[at(i * n + i)] = 1.0;
+    const Embedded& e = embedding.components[i];
+    s.p[i * N] = e.centre;
+    if (e.symbol >= 0) s.p[i * N + monomials.linear(e.symbol)] = e.half;
+    s.R[i] = e.coarseRadius();
+    s.C[i * n + i] = 1.0;
   }
   s.parameters.assign(embedding.components.begin() + n, embedding.components.end());
-  s.centre.assign(at(embedding.symbols), 0.0);
-  s.half.assign(at(embedding.symbols), 1.0);
+  s.centre.assign(embedding.symbols, 0.0);
+  s.half.assign(embedding.symbols, 1.0);
   return s;
 }
 

@@ -114,9 +114,8 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   if (options.dropsUnneeded) {
     const std::vector<char> isNeeded = neededStates(f, std::array{g, options.aside.values});
     f = withOthersAtRest(f, isNeeded);
-    std::erase_if(options.rests, [&](const RestingPair& pair) {
-      return isNeeded[at(pair.position)] == 0 || isNeeded[at(pair.speed)] == 0;
-    });
+    std::erase_if(options.rests,
+                  [&](const RestingPair& pair) { return isNeeded[pair.position] == 0 || isNeeded[pair.speed] == 0; });
   }
   FlowFormulation anyCourse(std::move(f), std::move(g), options.varying, options.aside.values);
   std::optional<FlowFormulation> ofRates;
@@ -200,7 +199,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   const FlowQuestion question = questionWith(own, budget), levelQuestion = questionWith(ofLevels, levelBudget);
   const auto narrowsInput = [&](const Box& level) {
     return std::ranges::any_of(options.varying, [&](const VaryingParameter& input) {
-      return width(level[at(n + input.parameter)]) < width(box[at(n + input.parameter)]);
+      return width(level[n + input.parameter]) < width(box[n + input.parameter]);
     });
   };
   const bool jumps = !jumpsOf(formulation.motion).empty() || !jumpsOf(formulation.outputs).empty();
@@ -278,7 +277,7 @@ void requireAnswerable(const Program& motion, const std::vector<PreciseValue>& p
   requireNested(box, levels);
   for (const PreciseValue& value : precise) {
     const Interval known = Interval(value.high) + Interval(value.low) + Interval(-value.radius, value.radius);
-    requireThat(!isEmpty(intersection(known, box[at(value.component)])), "a precise value must be one of the box's");
+    requireThat(!isEmpty(intersection(known, box[value.component])), "a precise value must be one of the box's");
   }
 }
 

@@ -26,10 +26,10 @@ Program selected(const Program& all, int functions, const Program& f, const std:
   outputs.insert(outputs.end(), from.begin() + functions, from.begin() + functions + n * n);
   for (int i = 0; i < n; ++i)
     for (const VaryingParameter& input : inputs)
-      outputs.push_back(from[at(functions + functions * n + i * k + input.parameter)]);
+      outputs.push_back(from[functions + functions * n + i * k + input.parameter]);
   for (int i = 0; i < n; ++i)
     for (int parameter = signs; parameter < k; ++parameter)
-      outputs.push_back(from[at(functions + functions * n + i * k + parameter)]);
+      outputs.push_back(from[functions + functions * n + i * k + parameter]);
   outputs.insert(outputs.end(), from.begin() + n, from.begin() + functions);
   return Recorder(all).finish(outputs);
 }
@@ -41,7 +41,7 @@ std::vector<char> dependents(const Program& program, int first) {
     const Node& node = program.nodes()[i];
     bool does = node.op == Op::parameter && node.a >= first;
     detail::forEachOperand(program.table(), static_cast<int>(i),
-                           [&](int operand) { does = does || result[at(operand)] != 0; });
+                           [&](int operand) { does = does || result[operand] != 0; });
     result.push_back(static_cast<char>(does));
   }
   return result;
@@ -50,23 +50,23 @@ std::vector<char> dependents(const Program& program, int first) {
 }  // namespace
 
 std::vector<char> bentStates(const Program& f) {
-  std::vector<char> bent(at(f.states()), 0);
+  std::vector<char> bent(f.states(), 0);
   std::vector<std::vector<char>> on;  // of each node, which states it depends on
   const auto bend = [&](int node) {
-    for (std::size_t i = 0; i < bent.size(); ++i) bent[i] = static_cast<char>(bent[i] != 0 || on[at(node)][i] != 0);
+    for (std::size_t i = 0; i < bent.size(); ++i) bent[i] = static_cast<char>(bent[i] != 0 || on[node][i] != 0);
   };
-  const auto depends = [&](int node) { return std::ranges::count(on[at(node)], 0) < f.states(); };
+  const auto depends = [&](int node) { return std::ranges::count(on[node], 0) < f.states(); };
   for (std::size_t i = 0; i < f.nodes().size(); ++i) {
     const Node& node = f.nodes()[i];
     std::vector<char> own(bent.size(), 0);
-    if (node.op == Op::state) own[at(node.a)] = 1;
+    if (node.op == Op::state) own[node.a] = 1;
     bool isLinear = node.op == Op::add || node.op == Op::sub || node.op == Op::neg || node.op == Op::abs;
     if (node.op == Op::mul) isLinear = !depends(node.a) || !depends(node.b);
     if (node.op == Op::sign) isLinear = true;
     detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) {
       if (!isLinear) bend(operand);
       for (std::size_t k = 0; k < own.size() && node.op != Op::sign; ++k)
-        own[k] = static_cast<char>(own[k] != 0 || on[at(operand)][k] != 0);
+        own[k] = static_cast<char>(own[k] != 0 || on[operand][k] != 0);
     });
     on.push_back(std::move(own));
   }
@@ -86,17 +86,16 @@ Program differentiatedFor(const Program& motion, const std::vector<VaryingParame
   Recorder recorder(n, k, RuleSet::none());
   std::vector<int> parameters;
   for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));
-  parameters.resize(at(k + jumps), recorder.constant(0.0));
+  parameters.resize(k + jumps, recorder.constant(0.0));
   const std::vector<int> without = recorder.append(signless, parameters);
   const std::vector<int>& all = signless.outputNodes();
-  for (int j = 0; j < jumps; ++j)
-    parameters[at(k + j)] = recorder.sign(without[at(all[all.size() - at(jumps) + at(j)])]);
+  for (int j = 0; j < jumps; ++j) parameters[k + j] = recorder.sign(without[all[all.size() - at(jumps) + at(j)]]);
   std::vector<int> instead = without, outputs;
   const std::vector<char> depend = dependents(signless, k);
   for (std::size_t i = 0; i < instead.size(); ++i)
     if (depend[i] != 0) instead[i] = -1;
   const std::vector<int> here = recorder.append(signless, parameters, instead);
-  for (std::size_t o = 0; o + at(jumps) < all.size(); ++o) outputs.push_back(here[at(all[o])]);
+  for (std::size_t o = 0; o + at(jumps) < all.size(); ++o) outputs.push_back(here[all[o]]);
   return recorder.finish(outputs);
 }
 
@@ -118,12 +117,12 @@ FlowFormulation FlowFormulation::ofRates() const {
     int next = states;
     for (const VaryingParameter& input : inputs)
       if (std::isfinite(input.rate)) {
-        parameters[at(input.parameter)] = recorder.state(next++);
+        parameters[input.parameter] = recorder.state(next++);
         rates.push_back(recorder.parameter(input.parameter));
       }
     const std::vector<int> here = recorder.append(program, parameters);
     std::vector<int> results;
-    for (const int output : program.outputNodes()) results.push_back(here[at(output)]);
+    for (const int output : program.outputNodes()) results.push_back(here[output]);
     if (withRates) results.insert(results.end(), rates.begin(), rates.end());
     return recorder.finish(results);
   };
@@ -141,7 +140,7 @@ FlowFormulation FlowFormulation::withClock() const {
       if (program.nodes()[i].op == Op::time) instead[i] = clock;
     const std::vector<int> here = recorder.append(program, {}, instead);
     std::vector<int> results;
-    for (const int output : program.outputNodes()) results.push_back(here[at(output)]);
+    for (const int output : program.outputNodes()) results.push_back(here[output]);
     if (isMotion) results.push_back(recorder.constant(1.0));
     return recorder.finish(results);
   };
@@ -168,9 +167,9 @@ Box FlowFormulation::boxOf(const Box& box) const {
   if (hasClock || starts.outputs() > 0) return result;
   auto place = result.begin() + states;
   for (const VaryingParameter& input : inputs)
-    if (std::isfinite(input.rate)) place = result.insert(place, box[at(states + input.parameter)]) + 1;
+    if (std::isfinite(input.rate)) place = result.insert(place, box[states + input.parameter]) + 1;
   for (const VaryingParameter& input : inputs)
-    if (std::isfinite(input.rate)) result[at(motion.states() + input.parameter)] = Interval(-input.rate, input.rate);
+    if (std::isfinite(input.rate)) result[motion.states() + input.parameter] = Interval(-input.rate, input.rate);
   return result;
 }
 
@@ -178,7 +177,7 @@ double FlowFormulation::horizonOf(const Box& box, double horizon) const {
   constexpr double widest = 4;  // of w as a state, in widths of its interval
   for (const VaryingParameter& input : inputs)
     if (std::isfinite(input.rate))
-      horizon = std::min(horizon, 0.5 * widest * width(box[at(states + input.parameter)]) / input.rate);
+      horizon = std::min(horizon, 0.5 * widest * width(box[states + input.parameter]) / input.rate);
   return horizon;
 }
 

@@ -69,7 +69,7 @@ void FlowRun::gatherBounds(Tube& tube, std::size_t rows) const {
 void FlowRun::takeStart(Tube& tube) {
   tube.states_ =
       tube.statesOver_ = {std::vector<Interval>(task_.box.begin(), task_.box.begin() + task_.motion.states())};
-  tube.outputs_ = tube.outputsOver_ = {std::vector<Interval>(at(task_.outputs.outputs()), Interval::entire())};
+  tube.outputs_ = tube.outputsOver_ = {std::vector<Interval>(task_.outputs.outputs(), Interval::entire())};
   tube.asides_ = {std::vector<Interval>(task_.looksAside[0] == 0 ? 0 : at(task_.options.aside.values.outputs()),
                                         Interval::entire())};
   for (auto& part : collected_)
@@ -145,8 +145,8 @@ void FlowRun::measureExcess(Tube& tube) {
   if (task_.outputs.outputs() > 0)
     tube.excess_ = excessOf(tube.outputs_, &FlowCollected::outputCore, task_.options.floors);
   for (const int output : task_.options.uncounted)
-    for (std::vector<double>& row : tube.excess_) row[at(output)] = 0;
-  const auto isWide = [&](int input) { return !isThin(task_.box[at(task_.motion.states() + input)]); };
+    for (std::vector<double>& row : tube.excess_) row[output] = 0;
+  const auto isWide = [&](int input) { return !isThin(task_.box[task_.motion.states() + input]); };
   if (task_.embedding.symbols == 0 && std::ranges::none_of(task_.varying, isWide)) tube.excess_.clear();
   looseness_ = loosenessOf(tube, task_.options);
   needsDegree_ = looseness_ > task_.aim() && ofStates <= task_.aim();
@@ -165,7 +165,7 @@ void FlowRun::gatherCounts(Tube& tube) {
       influence_[l].nonlinear = std::max(influence_[l].nonlinear, part.influence[l].nonlinear);
     }
   for (const Embedded& e : task_.embedding.components)
-    tube.nonlinear_.push_back(e.symbol >= 0 ? influence_[at(e.symbol)].nonlinear : 0);
+    tube.nonlinear_.push_back(e.symbol >= 0 ? influence_[e.symbol].nonlinear : 0);
   tube.pieces_ = pieces_;
   for (const FlowCollected& part : collected_) {
     tube.steps_ += part.steps;

@@ -55,8 +55,7 @@ class ImageFinder {
         cancelled_(cancelled),
         states_(g.states()),
         workOfPart_(static_cast<double>(monomials_->pairs().size() + 64) * static_cast<double>(g.nodes().size() + 1)) {
-    parts_.push_back(
-        on({std::vector<double>(at(embedding_.symbols), 0.0), std::vector<double>(at(embedding_.symbols), 1.0)}));
+    parts_.push_back(on({std::vector<double>(embedding_.symbols, 0.0), std::vector<double>(embedding_.symbols, 1.0)}));
   }
 
   const Embedding& embedding() const { return embedding_; }
@@ -97,7 +96,7 @@ class ImageFinder {
 
   /// Over the box.
   std::vector<OutputExtremes> extremes() const {
-    std::vector<OutputExtremes> result(at(outputs_.count()));
+    std::vector<OutputExtremes> result(outputs_.count());
     for (const ImagePart& part : parts_)
       for (std::size_t o = 0; o < result.size(); ++o) result[o].join(part.extremes[o]);
     return result;
@@ -105,10 +104,10 @@ class ImageFinder {
 
   /// Over the box, then over each level.
   std::vector<std::vector<Interval>> ranges(const std::vector<Box>& levels) {
-    std::vector<std::vector<Interval>> result(1, std::vector<Interval>(at(outputs_.count()), Interval::empty()));
+    std::vector<std::vector<Interval>> result(1, std::vector<Interval>(outputs_.count(), Interval::empty()));
     for (const ImagePart& part : parts_) join(result[0], part.range);
     for (const Box& level : levels) {
-      std::vector<Interval> row(at(outputs_.count()), Interval::empty());
+      std::vector<Interval> row(outputs_.count(), Interval::empty());
       for (const ImagePart& part : parts_) {
         Box xi(at(embedding_.symbols), Interval(-1.0, 1.0)), own = part.box;
         if (!restrictTo(level, embedding_, part.part.centre, part.part.half, xi)) continue;
@@ -124,7 +123,7 @@ class ImageFinder {
 
  private:
   static std::shared_ptr<const Monomials> monomialsOf(int symbols, int degree) {
-    std::vector<int> weights(at(symbols), 1);
+    std::vector<int> weights(symbols, 1);
     const int chosen = degree >= 1 && symbols > 0 ? degree : degreeLadder(weights).back();
     return std::make_shared<const Monomials>(std::move(weights), chosen);
   }
@@ -136,11 +135,11 @@ class ImageFinder {
   /// centre + half ξ with ξ = c + h η is centre + half c + (half h) η, of which the first is rounded twice; h is a
   /// power of two.
   Embedded embeddedOn(const Embedded& e, const FlowPart& part) const {
-    if (e.symbol < 0 || part.half[at(e.symbol)] == 1) return e;
+    if (e.symbol < 0 || part.half[e.symbol] == 1) return e;
     Embedded own = e;
-    const double moved = e.half * part.centre[at(e.symbol)];
+    const double moved = e.half * part.centre[e.symbol];
     own.centre = e.centre + moved;
-    own.half = e.half * part.half[at(e.symbol)];
+    own.half = e.half * part.half[e.symbol];
     own.radius = (e.radius + bounds::unit * (std::fabs(moved) + std::fabs(own.centre))) * bounds::up + bounds::tiny;
     return own;
   }
@@ -152,15 +151,15 @@ class ImageFinder {
     for (const double half : found.part.half) found.volume *= half;
     const int n = states_, N = monomials_->count();
     FlowPoint point;
-    point.p.assign(at(n * N), 0.0);
-    point.low.assign(at(n), 0.0);
-    point.psi.assign(at(n * n), 0.0);
+    point.p.assign(n * N, 0.0);
+    point.low.assign(n, 0.0);
+    point.psi.assign(n * n, 0.0);
     point.psiSum = point.psi;
-    point.total.assign(at(n), 0.0);
+    point.total.assign(n, 0.0);
     std::vector<Embedded> parameters;
     for (std::size_t i = 0; i < box_.size(); ++i) {
       const Embedded e = embeddedOn(embedding_.components[i], found.part);
-      if (e.symbol >= 0 && found.part.half[at(e.symbol)] < 1) found.box[i] = intersection(rangeOf(e), box_[i]);
+      if (e.symbol >= 0 && found.part.half[e.symbol] < 1) found.box[i] = intersection(rangeOf(e), box_[i]);
       if (i >= at(n)) {
         parameters.push_back(e);
         continue;
@@ -172,14 +171,14 @@ class ImageFinder {
     point.radius = point.loose;
     point.ofR = point.total;
     point.beyond = point.known = point.total;
-    outputs_.evaluate(t_, point, std::vector<double>(at(n), 0.0), parameters);
+    outputs_.evaluate(t_, point, std::vector<double>(n, 0.0), parameters);
     for (int o = 0; o < outputs_.count(); ++o) {
       found.radius.push_back(outputs_.radius(o));
       found.polynomial.emplace_back();
       if (std::isfinite(outputs_.radius(o)))
         found.polynomial.back().assign(outputs_.polynomial(o), outputs_.polynomial(o) + N);
     }
-    found.extremes.resize(at(outputs_.count()));
+    found.extremes.resize(outputs_.count());
     found.range = rangesOf(found, Box(at(embedding_.symbols), Interval(-1.0, 1.0)), found.box, &found.extremes);
     return found;
   }
@@ -203,25 +202,24 @@ class ImageFinder {
   // ---- Bisection ----------------------------------------------------------------------------------------------------
 
   void measureWidths(const std::vector<int>& counted) {
-    whole_.assign(at(outputs_.count()), Interval::empty());
+    whole_.assign(outputs_.count(), Interval::empty());
     for (const ImagePart& part : parts_)
-      for (const int o : counted) whole_[at(o)] = hull(whole_[at(o)], part.range[at(o)]);
+      for (const int o : counted) whole_[o] = hull(whole_[o], part.range[o]);
   }
 
   /// Of an output on a part: twice what the polynomial may be off by, beside the width of the output over the box; 1 at
   /// most.
   double unknownOf(const ImagePart& part, int output) const {
-    const Interval& whole = whole_[at(output)];
-    const double own = part.polynomial[at(output)].empty()
-                           ? width(part.range[at(output)])
-                           : std::min(2 * part.radius[at(output)], width(part.range[at(output)]));
+    const Interval& whole = whole_[output];
+    const double own = part.polynomial[output].empty() ? width(part.range[output])
+                                                       : std::min(2 * part.radius[output], width(part.range[output]));
     if (!(own > rounding * magnitude(whole))) return 0;
     return isBounded(whole) ? std::min(1.0, own / width(whole)) : 1;
   }
   static constexpr double rounding = 1e-12;
 
   bool isExtreme(const ImagePart& part, int output) const {
-    const Interval &whole = whole_[at(output)], &own = part.range[at(output)];
+    const Interval &whole = whole_[output], &own = part.range[output];
     return own.lower() <= whole.lower() || own.upper() >= whole.upper();
   }
 
@@ -252,15 +250,15 @@ class ImageFinder {
   /// Symbols with most in nonlinear terms, then in any.
   std::vector<std::size_t> likelySymbols(const ImagePart& part, const std::vector<int>& counted) const {
     constexpr double linear = 1e-3;
-    std::vector<double> weight(at(embedding_.symbols), 0.0);
+    std::vector<double> weight(embedding_.symbols, 0.0);
     for (const int o : counted) {
-      const double unknown = unknownOf(part, o), size = width(whole_[at(o)]);
-      const std::vector<double>& c = part.polynomial[at(o)];
+      const double unknown = unknownOf(part, o), size = width(whole_[o]);
+      const std::vector<double>& c = part.polynomial[o];
       for (std::size_t l = 0; l < weight.size(); ++l) weight[l] += 1e-6 * unknown * part.part.half[l];
       for (int g = 1; g < static_cast<int>(c.size()) && unknown > 0 && size > 0; ++g)
         for (std::size_t l = 0; l < weight.size(); ++l)
           if (const int power = monomials_->exponent(g, static_cast<int>(l)); power > 0)
-            weight[l] += unknown * power * (monomials_->grade(g) > 1 ? 1.0 : linear) * std::fabs(c[at(g)]) / size;
+            weight[l] += unknown * power * (monomials_->grade(g) > 1 ? 1.0 : linear) * std::fabs(c[g]) / size;
     }
     std::vector<std::size_t> order(weight.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -339,10 +337,10 @@ std::shared_ptr<const FlowModels> modelsOf(const ImageFinder& image, double t, c
     snapshot->part = part.part;
     snapshot->monomials = image.monomials();
     for (const int o : modelled)
-      snapshot->outputs.push_back(part.polynomial[at(o)].empty()
-                                      ? OutputModel{{}, part.radius[at(o)], part.range[at(o)]}
-                                      : modelOf(part.polynomial[at(o)].data(), part.radius[at(o)], *image.monomials(),
-                                                models->symbols, part.range[at(o)]));
+      snapshot->outputs.push_back(
+          part.polynomial[o].empty()
+              ? OutputModel{{}, part.radius[o], part.range[o]}
+              : modelOf(part.polynomial[o].data(), part.radius[o], *image.monomials(), models->symbols, part.range[o]));
     models->at[0].push_back(std::move(snapshot));
   }
   return models;

@@ -344,7 +344,7 @@ bool FlowFollower::use(const FlowPiece& piece, const std::vector<char>& held) {
   useOutputsOf(*tool_);
   monomialCount_ = task_.layouts[piece.layout].monomials->count();
   symbols_ = task_.layouts[piece.layout].monomials->symbols();
-  whole_.assign(at(symbols_), Interval(-1.0, 1.0));
+  whole_.assign(symbols_, Interval(-1.0, 1.0));
   return true;
 }
 
@@ -440,15 +440,15 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
   rangeTolerance_ = with == nullptr ? task_.rangeTolerance() : std::max(toleranceBetween, task_.rangeTolerance());
   const bool isShort = with != nullptr && with->isPrefix;
   PolynomialRange& range = isShort ? with->range : tool_->range;
-  states.resize(at(task_.motion.states()));
+  states.resize(task_.motion.states());
   stateCore_.clear();
   for (int i = 0; i < task_.motion.states(); ++i) {
     const double* p = &point_.p[i * N];
     double dropped = 0;
     for (int g = isShort ? with->outputs.monomials()->count() : N; g < N; ++g) dropped += std::fabs(p[g]);
     const double radius = (point_.radius[i] + dropped) * (dropped > 0 ? bounds::up : 1.0);
-    states[at(i)] = range(p, whole_, rangeTolerance_) + inflated(Interval(point_.low[i]), radius);
-    stateCore_.push_back(without(states[at(i)], point_.radius[i] - point_.driven[i] - point_.known[i] + range.gap()));
+    states[i] = range(p, whole_, rangeTolerance_) + inflated(Interval(point_.low[i]), radius);
+    stateCore_.push_back(without(states[i], point_.radius[i] - point_.driven[i] - point_.known[i] + range.gap()));
   }
   outputs.clear();
   outputLimits_.clear();
@@ -559,7 +559,7 @@ void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Inter
     const Interval bound = inflated(range(outputs_->polynomial(o), xi, rangeTolerance_), radius);
     outputs.push_back(bound);
     if (!extremes_.empty())
-      extremes_[at(o)] = extremesOf(range, task_.box, task_.embedding, piece.set.centre, piece.set.half);
+      extremes_[o] = extremesOf(range, task_.box, task_.embedding, piece.set.centre, piece.set.half);
     if (knowsMore)  // of |y| through 0 the one knows what the other does not
       outputs.back() = intersection(bound, overBoxes(o));
     outputLimits_.push_back(outputs_->hasJumps() ? bound : outputs.back());
@@ -614,7 +614,7 @@ std::shared_ptr<FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& piece,
   snapshot->outputs.reserve(task_.options.modelled.size() + (isOfAll ? task_.options.modelledAt.size() : 0));
   const auto include = [&](int o) {
     snapshot->outputs.push_back(modelOf(outputs_->polynomial(o), outputs_->radius(o), *snapshot->monomials,
-                                        task_.embedding.symbols, outputs[at(o)]));
+                                        task_.embedding.symbols, outputs[o]));
   };
   for (const int o : task_.options.modelled) include(o);
   const double bytes = bytesOf(*snapshot);
@@ -675,8 +675,7 @@ void FlowFollower::loadChords(FlowPiece& piece, const std::vector<Interval>& bef
   const std::size_t rich = task_.outputLayout(piece.layout);
   if (!task_.standsStill || rich == piece.layout) return;
   for (int o = 0; o < outputs_->count(); ++o)
-    if (!(outputTool_->chords->rest(o) <= little * extentOf(before[at(o)])))
-      return loadIn(outputTool_->richChords, rich);
+    if (!(outputTool_->chords->rest(o) <= little * extentOf(before[o]))) return loadIn(outputTool_->richChords, rich);
 }
 
 /// Whether chords leave more of some output than so many times what counts for nothing beside its width, or beside what
@@ -685,7 +684,7 @@ bool FlowFollower::leavesOver(double times, const FlowPiece& piece, const std::v
   const double ofWidth = task_.options.modelled.empty() ? 4e-3 : 1e-3, ofRadius = 0.1;
   for (int o = 0; o < outputs_->count(); ++o)
     if (!(outputTool_->chords->rest(o) <=
-          times * std::max(ofWidth * extentOf(outputs[at(o)]), ofRadius * piece.lastRadii[at(o)])))
+          times * std::max(ofWidth * extentOf(outputs[o]), ofRadius * piece.lastRadii[o])))
       return true;
   return false;
 }
@@ -743,7 +742,7 @@ bool FlowFollower::isNarrowEnough(FlowPiece& piece, double t, const std::vector<
   if (const int i = tooWide(piece, states, outputs); i >= 0) {
     const std::vector<std::string>& names = task_.options.outputNames;
     const std::string name = task_.options.mostWidth.empty() ? tool_->stepper.nameOf(i)
-                             : at(i) < names.size()          ? names[at(i)]
+                             : at(i) < names.size()          ? names[i]
                                                              : "output " + std::to_string(i);
     run_.fail(piece, t, name + " is too wide: its enclosure is more than a million times its size");
     return false;

@@ -45,15 +45,15 @@ OutputModel modelOf(const double* polynomial, double radius, const Monomials& mo
     variation += size;
     if (isOf(monomials, g, symbols)) continue;
     beside += size;
-    model.c[at(g)] = 0;
+    model.c[g] = 0;
   }
   int grade = monomials.degree();
   for (double dropped = 0; grade > 0; --grade) {
-    for (int g = monomials.firstOf(grade); g < monomials.countUpTo(grade); ++g) dropped += std::fabs(model.c[at(g)]);
+    for (int g = monomials.firstOf(grade); g < monomials.countUpTo(grade); ++g) dropped += std::fabs(model.c[g]);
     if (!(dropped <= next * variation + ofRadius * radius)) break;
   }
   for (std::size_t g = at(monomials.countUpTo(grade)); g < model.c.size(); ++g) beside += std::fabs(model.c[g]);
-  model.c.resize(at(monomials.countUpTo(grade)));
+  model.c.resize(monomials.countUpTo(grade));
   model.c.shrink_to_fit();  // there may be one of each output at each time, on each of many parts
   model.radius = (radius + beside) * bounds::up;
   return model;

@@ -2,12 +2,9 @@
 
 #include <utility>
 
-#include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -19,9 +16,9 @@ void need(const Program& f, int node, std::vector<char>& isSeen, std::vector<cha
   while (!open.empty()) {
     const int i = open.back();
     open.pop_back();
-    if (std::exchange(isSeen[at(i)], 1) != 0) continue;
-    const Node& here = f.nodes()[at(i)];
-    if (here.op == Op::state && std::exchange(isNeeded[at(here.a)], 1) == 0) appended.push_back(here.a);
+    if (std::exchange(isSeen[i], 1) != 0) continue;
+    const Node& here = f.nodes()[i];
+    if (here.op == Op::state && std::exchange(isNeeded[here.a], 1) == 0) appended.push_back(here.a);
     detail::forEachOperand(f.table(), i, [&](int operand) { open.push_back(operand); });
   }
 }
@@ -31,7 +28,7 @@ std::vector<char> noneSeen(const Program& program) { return std::vector<char>(pr
 }  // namespace
 
 std::vector<char> neededStates(const Program& f, std::span<const Program> readers) {
-  std::vector<char> isNeeded(at(f.states()), 0), isSeen = noneSeen(f);
+  std::vector<char> isNeeded(f.states(), 0), isSeen = noneSeen(f);
   std::vector<int> open;
   for (const Program& reader : readers) {
     std::vector<char> isSeenThere = noneSeen(reader);
@@ -40,7 +37,7 @@ std::vector<char> neededStates(const Program& f, std::span<const Program> reader
   while (!open.empty()) {
     const int state = open.back();
     open.pop_back();
-    need(f, f.outputNodes()[at(state)], isSeen, isNeeded, open);
+    need(f, f.outputNodes()[state], isSeen, isNeeded, open);
   }
   return isNeeded;
 }

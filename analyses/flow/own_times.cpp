@@ -62,11 +62,11 @@ Interval rangeWithin(const std::vector<BoundedPolynomial>& limits, const Monomia
   Interval result = Interval::entire();
   const Box whole(at(monomials.symbols()), Interval(-1.0, 1.0));
   for (const BoundedPolynomial& limit : limits) {
-    std::vector<double> q(at(monomials.count()), 0.0);
+    std::vector<double> q(monomials.count(), 0.0);
     double dropped = limit.error;
     for (std::size_t g = 0; g < limit.c.size(); ++g)
       if (const int number = monomials.find(of, static_cast<int>(g)); number >= 0)
-        q[at(number)] = limit.c[g];
+        q[number] = limit.c[g];
       else
         dropped += std::fabs(limit.c[g]);
     for (const double sign : {1.0, -1.0}) {
@@ -78,7 +78,7 @@ Interval rangeWithin(const std::vector<BoundedPolynomial>& limits, const Monomia
       double lambda = 0, least = estimate(0);
       for (int l = 0; l < monomials.symbols(); ++l) {
         const int g = monomials.linear(l);
-        const double own = g < 0 || q[at(g)] == 0 ? 0 : sign * P[at(g)] / q[at(g)];
+        const double own = g < 0 || q[g] == 0 ? 0 : sign * P[g] / q[g];
         if (!(own > 0) || !(estimate(own) < least)) continue;
         lambda = own;
         least = estimate(own);
@@ -104,7 +104,7 @@ Interval rangeWithin(const std::vector<BoundedPolynomial>& limits, const Monomia
 
 /// The symbol that decides most about it in this part of [-1,1]^k.
 int symbolOf(const BoundedPolynomial& polynomial, const Monomials& monomials, const Box& xi) {
-  std::vector<double> mass(at(monomials.symbols()), 0.0);
+  std::vector<double> mass(monomials.symbols(), 0.0);
   for (std::size_t g = 1; g < polynomial.c.size(); ++g)
     monomials.addMass(static_cast<int>(g), std::fabs(polynomial.c[g]), mass);
   for (std::size_t l = 0; l < mass.size(); ++l) mass[l] *= width(xi[l]);
@@ -303,10 +303,10 @@ class FlowFollower::OwnChords {
                                             bool isOfAll) {
     auto snapshot = std::make_shared<FlowSnapshot>(
         FlowSnapshot{f_.at_, part, f_.outputs_->monomials(), {}, piece_.path + cell.path});
-    for (const int o : f_.task_.options.modelled) snapshot->outputs.push_back({{}, 0, overs[at(o)]});
+    for (const int o : f_.task_.options.modelled) snapshot->outputs.push_back({{}, 0, overs[o]});
     const double bytes = bytesOf(*snapshot);
     for (std::size_t more = 0; isOfAll && more < f_.task_.options.modelledAt.size(); ++more)
-      snapshot->outputs.push_back({{}, 0, overs[at(f_.task_.options.modelledAt[more])]});
+      snapshot->outputs.push_back({{}, 0, overs[f_.task_.options.modelledAt[more]]});
     f_.run_.countModel(bytes, bytesOf(*snapshot) - bytes);
     return snapshot;
   }
@@ -329,7 +329,7 @@ class FlowFollower::OwnChords {
         FlowChord chord{part, snapshot, snapshot, {}, {}};
         for (const int o : f_.task_.options.modelled) {
           chord.sag.push_back(Interval::entire());
-          chord.bound.push_back(overs[at(o)]);
+          chord.bound.push_back(overs[o]);
         }
         f_.run_.countChord();
         collected.chords[row].push_back(std::move(chord));
@@ -344,7 +344,7 @@ class FlowFollower::OwnChords {
         joinHulls(cuts[row], overs.empty() ? states : overs);
       if (f_.task_.looksAside[row] != 0)
         joinHulls(collected.asides[row],
-                  std::vector<Interval>(at(f_.task_.options.aside.values.outputs()), Interval::entire()));
+                  std::vector<Interval>(f_.task_.options.aside.values.outputs(), Interval::entire()));
     }
   }
 
@@ -503,7 +503,7 @@ class FlowFollower::OwnRows {
 /// if the piece has grown too wide. Nothing but the states depends on time.
 bool FlowFollower::recordOwnTimes(FlowPiece& piece, bool stopsOnceTurned) {
   const double h = tool_->stepper.h(), began = piece.set.t;
-  if (piece.set.ahead.c.empty()) piece.set.ahead.c.assign(at(monomialCount_), 0.0);
+  if (piece.set.ahead.c.empty()) piece.set.ahead.c.assign(monomialCount_, 0.0);
   const Interval times = Interval(began) + rangeOf(piece.set.ahead) + Interval(0.0, h);
   std::vector<std::size_t> rows;
   for (std::size_t row = 1; row < task_.times.size(); ++row)
@@ -562,7 +562,7 @@ double FlowFollower::locate(const FlowPiece& piece, const OwnCell& cell, const O
       if (hasTurned && !isSince) u.back() += cell.polynomial(cell.turned(i) + order);
     }
     BoundedPolynomial x = composedNear(stepper.monomials(), u, moment, when.around, little);
-    x.c.resize(at(monomialCount_), 0.0);
+    x.c.resize(monomialCount_, 0.0);
     point.p.insert(point.p.end(), x.c.begin(), x.c.end());
     point.radius.push_back((x.error + stepper.radiusOver(static_cast<int>(i), hasTurned)) * bounds::up);
     if (x.error > 0) share = std::max(share, x.error / width(piece.last[i]));
@@ -619,7 +619,7 @@ void FlowFollower::appendWithin(OutputTools& tools, const FlowPiece& own, const 
   }
   for (int o = 0; o < outputs_->count() && !limits.empty(); ++o) {
     const double radius = outputs_->radius(o);
-    if (!std::isfinite(radius) || liesWithin(known_.outputs[row], at(o), outputs[at(o)])) continue;
+    if (!std::isfinite(radius) || liesWithin(known_.outputs[row], at(o), outputs[o])) continue;
     narrow(at(o), inflated(rangeWithin(limits, tool_->stepper.monomials(), outputs_->polynomial(o),
                                        *outputs_->monomials(), *outputRange_),
                            radius));

@@ -7,11 +7,8 @@
 
 #include "analyses/flow/run.hpp"
 #include "analyses/work.hpp"
-#include "scalars/index.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -54,7 +51,7 @@ Tube withPlainDegrees(const FlowQuestion& question, const Box& box, const std::v
   FlowOptions options = question.options;
   options.split = false;
   FlowRound round;
-  round.emphasis = {std::vector<int>(at(symbols), 1), static_cast<double>(symbols)};
+  round.emphasis = {std::vector<int>(symbols, 1), static_cast<double>(symbols)};
   round.scales = std::move(scales);
   const double most = std::max(isEarly ? leastEarly : leastLoose, work), began = question.budget.spent;
   double last = 0, lastCount = 0;

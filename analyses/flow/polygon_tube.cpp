@@ -10,12 +10,9 @@
 
 #include "analyses/flow/run.hpp"
 #include "analyses/work.hpp"
-#include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -33,15 +30,15 @@ bool isCurved(const Program& f, const Box& parameters) {
   for (std::size_t i = 0; i < full.nodes().size(); ++i) {
     const Node& node = full.nodes()[i];
     bool does =
-        (node.op == Op::state && node.a < f.states()) || (node.op == Op::parameter && hasWidth(parameters[at(node.a)]));
+        (node.op == Op::state && node.a < f.states()) || (node.op == Op::parameter && hasWidth(parameters[node.a]));
     detail::forEachOperand(full.table(), static_cast<int>(i),
-                           [&](int operand) { does = does || depends[at(operand)] != 0; });
+                           [&](int operand) { does = does || depends[operand] != 0; });
     depends.push_back(static_cast<char>(does));
   }
   const int n = f.states(), all = full.outputs();
   for (int o = n; o < all; ++o) {
     const bool isByTime = o < n + n * (n + 1) && (o - n) % (n + 1) == n;
-    if (!isByTime && depends[at(full.outputNodes()[at(o)])] != 0) return true;
+    if (!isByTime && depends[full.outputNodes()[o]] != 0) return true;
   }
   return false;
 }
@@ -55,9 +52,8 @@ Box parametersOf(const FlowQuestion& question, const Box& box) {
 bool PolygonTube::suits(const FlowQuestion& question, const Box& box) {
   if (question.options.varying.empty() || !PolygonBlocks::suits(question.motion)) return false;
   const Box parameters = parametersOf(question, box);
-  return std::ranges::any_of(
-             question.options.varying,
-             [&](const VaryingParameter& input) { return hasWidth(parameters[at(input.parameter)]); }) &&
+  return std::ranges::any_of(question.options.varying,
+                             [&](const VaryingParameter& input) { return hasWidth(parameters[input.parameter]); }) &&
          isCurved(question.motion, parameters);
 }
 
@@ -165,7 +161,7 @@ void PolygonTube::gather() {
   for (int o = 0; o < outputs_.count() && !places.empty(); ++o) {
     const Interval t(partFrom_, motion_.time());
     const Interval over = isBounded ? outputs_.over(o, places, t, toleranceOver, mostOver) : Interval::entire();
-    outputsOver_[at(o)] = hull(outputsOver_[at(o)], over);
+    outputsOver_[o] = hull(outputsOver_[o], over);
   }
   partFrom_ = motion_.time();
   motion_.forget();
@@ -202,22 +198,22 @@ std::shared_ptr<const FlowModels> PolygonTube::modelsBeyond(const FlowQuestion& 
   if (!known) return nullptr;
   auto models = std::make_shared<FlowModels>(*known);
   const std::size_t rows = tube.states_.size();
-  const FlowPart whole{std::vector<double>(at(models->symbols), 0.0), std::vector<double>(at(models->symbols), 1.0)};
-  const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(models->symbols), 1), 1);
+  const FlowPart whole{std::vector<double>(models->symbols, 0.0), std::vector<double>(models->symbols, 1.0)};
+  const auto monomials = std::make_shared<const Monomials>(std::vector<int>(models->symbols, 1), 1);
   const auto snapshotAt = [&](std::size_t row) {
     auto snapshot = std::make_shared<FlowSnapshot>();
     snapshot->time = tube.times_[row];
     snapshot->part = whole;
     snapshot->monomials = monomials;
     for (const std::vector<int>* outputs : {&question.options.modelled, &question.options.modelledAt})
-      for (const int o : *outputs) snapshot->outputs.push_back({{}, 0, tube.outputs_[row][at(o)]});
+      for (const int o : *outputs) snapshot->outputs.push_back({{}, 0, tube.outputs_[row][o]});
     return snapshot;
   };
   for (std::size_t row = models->at.size(); row < rows; ++row) {
     FlowChord chord{whole, snapshotAt(row - 1), snapshotAt(row), {}, {}};
     for (const int o : question.options.modelled) {
       chord.sag.push_back(Interval::entire());
-      chord.bound.push_back(tube.outputsOver_[row][at(o)]);
+      chord.bound.push_back(tube.outputsOver_[row][o]);
     }
     models->at.push_back({chord.behind});
     models->over.push_back({std::move(chord)});

@@ -7,11 +7,8 @@
 
 #include "analyses/flow/journey.hpp"
 #include "analyses/flow/run.hpp"
-#include "scalars/index.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -156,8 +153,8 @@ class FlowFollower::Recording {
     if (!before_.model || !behind_.model || piece_.next >= times().size() || !isModelled()) return;
     FlowChord chord{{piece_.set.centre, piece_.set.half}, before_.model, behind_.model, {}, {}};
     for (const int o : f_.task_.options.modelled) {
-      chord.sag.push_back(stepper_.isUnsettled() ? Interval::entire() : f_.sag_[at(o)].whole());
-      chord.bound.push_back(overs[at(o)]);
+      chord.sag.push_back(stepper_.isUnsettled() ? Interval::entire() : f_.sag_[o].whole());
+      chord.bound.push_back(overs[o]);
     }
     f_.run_.countChord();
     f_.collected_.chords[piece_.next].push_back(std::move(chord));
@@ -188,8 +185,7 @@ class FlowFollower::Recording {
       if (!f_.outputTool_->chords->isBounded(o)) open.push_back(o);
     if (open.empty()) return false;
     f_.enclose(piece_, loadedTo_ - t0_, end_.states, end_.outputs);
-    return std::ranges::any_of(open,
-                               [&](int o) { return isKnown[at(o)] != 0 || std::isfinite(f_.outputs_->radius(o)); });
+    return std::ranges::any_of(open, [&](int o) { return isKnown[o] != 0 || std::isfinite(f_.outputs_->radius(o)); });
   }
 
   /// Chords of the rest of the step, or of as much of it as they can be proved for: what is bounded at a moment may be
@@ -197,8 +193,8 @@ class FlowFollower::Recording {
   void loadNext() {
     constexpr int enoughInVain = 12;
     const double least = (t1_ - t0_) / 64;
-    std::vector<char> isKnown(at(f_.outputs_->count()));
-    for (int o = 0; o < f_.outputs_->count(); ++o) isKnown[at(o)] = std::isfinite(piece_.lastRadii[at(o)]) ? 1 : 0;
+    std::vector<char> isKnown(f_.outputs_->count());
+    for (int o = 0; o < f_.outputs_->count(); ++o) isKnown[o] = std::isfinite(piece_.lastRadii[o]) ? 1 : 0;
     for (length_ = std::max(2 * length_, least);; length_ *= 0.5) {
       const double until = from_ + length_;
       loadedTo_ = inVain_ < enoughInVain && from_ < until && until < t1_ ? until : t1_;

@@ -38,11 +38,11 @@ constexpr double mostHidden = 1e9;  // times below the threshold: less is roundi
 /// Of each parameter, whether one of these nodes depends on it.
 std::vector<char> parametersOf(const Program& f, const std::vector<int>& nodes) {
   std::vector<char> isPart(f.nodes().size(), 0), result(at(f.parameters()), 0);
-  for (const int node : nodes) isPart[at(node)] = 1;
+  for (const int node : nodes) isPart[node] = 1;
   for (std::size_t i = isPart.size(); i-- > 0;) {
     if (isPart[i] == 0) continue;
-    if (f.nodes()[i].op == Op::parameter) result[at(f.nodes()[i].a)] = 1;
-    detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) { isPart[at(operand)] = 1; });
+    if (f.nodes()[i].op == Op::parameter) result[f.nodes()[i].a] = 1;
+    detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) { isPart[operand] = 1; });
   }
   return result;
 }
@@ -69,7 +69,7 @@ class Weighing {
       if (const int symbol = embedding.components[at(question.motion.states()) + k].symbol;
           ofJumps[k] != 0 && symbol >= 0)
         decisive_.push_back(symbol);
-    emphasis_ = {std::vector<int>(at(symbols), 1), static_cast<double>(symbols)};
+    emphasis_ = {std::vector<int>(symbols, 1), static_cast<double>(symbols)};
     if (symbols == 0) return;
     const bool weighs = symbols >= leastLookedAt && question.options.degree < 0;
     const double began = threadCpuSeconds();
@@ -117,24 +117,24 @@ class Weighing {
   void look(const FlowQuestion& question, const Box& box, bool weighs) {
     const Embedding embedding = question.embed(box);
     const int n = question.motion.states(), degree = weighs && embedding.symbols <= mostOfSecondDegree ? 2 : 1;
-    const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), degree);
+    const auto monomials = std::make_shared<const Monomials>(std::vector<int>(embedding.symbols, 1), degree);
     std::vector<int> inputs;
     for (const VaryingParameter& input : question.options.varying) inputs.push_back(input.parameter);
     FlowStepper stepper(question.differentiated, monomials, 0, roughOrder, roughTolerance,
                         FlowInputs(n, roughOrder, inputs, 1), question.options.cancelled);
     PolynomialSeries outputs(question.outputs, question.outputs.outputs(), monomials, 0, 1, false);
-    influence_.assign(at(embedding.symbols), {});
+    influence_.assign(embedding.symbols, {});
     FlowSet set = startOf(embedding, n, *monomials, 0);
     if (question.starts != nullptr) placeSurfaces(set, *question.starts, monomials);
     FlowScales scales;
     bool isWhole = true;  // else they may be those of a state that grows without bound
-    std::vector<double> turned(at(n * n), 0.0), sizes(at(n));
+    std::vector<double> turned(n * n, 0.0), sizes(at(n));
     const auto keep = [&] {
       for (int i = 0; i < n; ++i) {
         const double* p = &set.p[i * monomials->count()];
-        sizes[at(i)] = 0;
-        for (int g = 0; g < monomials->count(); ++g) sizes[at(i)] += std::fabs(p[g]);
-        isWhole = isWhole && std::isfinite(sizes[at(i)]);
+        sizes[i] = 0;
+        for (int g = 0; g < monomials->count(); ++g) sizes[i] += std::fabs(p[g]);
+        isWhole = isWhole && std::isfinite(sizes[i]);
         if (weighs) measureInfluence(p, *monomials, influence_);
       }
       scales.add(set.t, sizes, turned);
@@ -155,7 +155,7 @@ class Weighing {
       for (std::size_t i = 0; i < set.parameters.size(); ++i)
         outputs.setParameter(static_cast<int>(i), set.parameters[i]);
       outputs.compute(set.t, 1.0);
-      std::vector<double> polynomial(at(monomials->count()));
+      std::vector<double> polynomial(monomials->count());
       for (int o = 0; o < question.outputs.outputs(); ++o) {
         for (std::size_t g = 0; g < polynomial.size(); ++g)
           polynomial[g] = outputs.series(outputs.outputNode(o))[static_cast<int>(g) * outputs.stride()];
@@ -174,7 +174,7 @@ class Weighing {
 
   Emphasis weighed() const {
     Emphasis emphasis = emphasisOf(influence_, negligible_, share_);
-    for (const int l : decisive_) emphasis.weights[at(l)] = std::max(emphasis.weights[at(l)], 1);
+    for (const int l : decisive_) emphasis.weights[l] = std::max(emphasis.weights[l], 1);
     return emphasis;
   }
 

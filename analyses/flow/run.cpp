@@ -10,23 +10,20 @@
 #include "analyses/flow/formulation.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
-#include "scalars/index.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 Tube FlowRun::run() {
   all_.push_back({start()});
   failedAt_ = std::numeric_limits<double>::infinity();
   beginTurn();
   const int jobs = std::max(1, task_.options.jobs);
-  collected_.assign(at(jobs), FlowCollected(task_.times.size(), task_.levels.size()));
+  collected_.assign(jobs, FlowCollected(task_.times.size(), task_.levels.size()));
   std::vector<std::jthread> threads;
   std::atomic<std::uint64_t> counted{0};
   for (int i = 1; i < jobs; ++i)
     threads.emplace_back([this, &counted, i] {
-      work(collected_[at(i)]);
+      work(collected_[i]);
       counted += Work::counted();  // a thread's clock begins at zero
     });
   work(collected_[0]);
@@ -43,8 +40,8 @@ FlowPiece FlowRun::start() const {
   const FlowLayout& layout = task_.layouts.front();
   piece.set = startOf(task_.embedding, task_.motion.states(), *layout.monomials, layout.frameDegree);
   for (int i = 0; task_.fineOrders > 0 && i < task_.motion.states(); ++i) {
-    piece.set.R[i] = task_.embedding.components[at(i)].radius;
-    piece.set.low.push_back(task_.embedding.components[at(i)].low);
+    piece.set.R[i] = task_.embedding.components[i].radius;
+    piece.set.low.push_back(task_.embedding.components[i].low);
   }
   return piece;
 }
@@ -221,7 +218,7 @@ void FlowRun::abandon(const FlowPiece& piece) {
 void FlowRun::probe(const FlowPiece& piece) {
   Box start = task_.box;
   for (const int parameter : task_.varying)  // a constant is one way to vary
-    start[at(task_.motion.states() + parameter)] = midpoint(task_.box[at(task_.motion.states() + parameter)]);
+    start[task_.motion.states() + parameter] = midpoint(task_.box[task_.motion.states() + parameter]);
   for (std::size_t i = 0; i < start.size(); ++i)
     if (const Embedded& e = task_.embedding.components[i]; e.symbol >= 0)
       start[i] = std::clamp(e.centre + e.half * piece.set.centre[e.symbol], task_.box[i].lower(), task_.box[i].upper());
@@ -341,7 +338,7 @@ Tube FlowRun::meetStages(Tube a, Tube b, const FlowOptions& options, const FlowB
 void FlowRun::dropStates(Tube& tube, int n) {
   const bool hasOutputs = !tube.outputs_[0].empty();
   const auto cut = [&](std::vector<std::vector<Interval>>& rows) {
-    for (std::vector<Interval>& row : rows) row.resize(at(n));
+    for (std::vector<Interval>& row : rows) row.resize(n);
   };
   const auto dropped = tube.states_.empty() ? 0 : static_cast<std::ptrdiff_t>(tube.states_[0].size()) - n;
   for (std::vector<OutputExtremes>& row : tube.extremes_)
@@ -359,7 +356,7 @@ void FlowRun::dropStates(Tube& tube, int n) {
   cut(tube.statesOver_);
   if (hasOutputs) return;
   for (auto& level : tube.cuts_) cut(level);
-  for (std::vector<double>& row : tube.excess_) row.resize(at(n));
+  for (std::vector<double>& row : tube.excess_) row.resize(n);
 }
 
 /// Of outputs that need not be as tight as others the part that counts.

@@ -31,8 +31,8 @@ Dependence dependenceOf(const Program& f) {
     const Op op = f.nodes()[i].op;
     bool moves = op == Op::state, isBent = !isSmooth(op);
     detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) {
-      moves = moves || result.moves[at(operand)] != 0;
-      isBent = isBent || result.bends[at(operand)] != 0;
+      moves = moves || result.moves[operand] != 0;
+      isBent = isBent || result.bends[operand] != 0;
     });
     result.moves.push_back(static_cast<char>(moves));
     result.bends.push_back(static_cast<char>(isBent));
@@ -45,9 +45,9 @@ std::vector<int> argumentsAmong(const Program& all, const std::vector<int>& node
   const Dependence on = dependenceOf(all);
   std::vector<int> arguments;
   for (const int node : nodes) {
-    if (isSmooth(all.nodes()[at(node)].op)) continue;
-    const int u = all.nodes()[at(node)].a;
-    if (on.moves[at(u)] != 0 && on.bends[at(u)] == 0 && std::ranges::find(arguments, u) == arguments.end() &&
+    if (isSmooth(all.nodes()[node].op)) continue;
+    const int u = all.nodes()[node].a;
+    if (on.moves[u] != 0 && on.bends[u] == 0 && std::ranges::find(arguments, u) == arguments.end() &&
         !linearFormOf(all, u))
       arguments.push_back(u);
   }
@@ -67,7 +67,7 @@ std::optional<FlowFormulation> withSurfaces(const FlowFormulation& of) {
     const std::vector<int> here = joint.append(program);
     if (ofMotion.empty()) ofMotion = here;
     results.emplace_back();
-    for (const int output : program.outputNodes()) results.back().push_back(here[at(output)]);
+    for (const int output : program.outputNodes()) results.back().push_back(here[output]);
   }
   std::vector<int> outputs;
   for (const std::vector<int>& nodes : results) outputs.insert(outputs.end(), nodes.begin(), nodes.end());
@@ -78,24 +78,24 @@ std::optional<FlowFormulation> withSurfaces(const FlowFormulation& of) {
 
   Recorder recorder(n + count, k);
   std::vector<int> instead(all.nodes().size(), -1);
-  for (int j = 0; j < count; ++j) instead[at(arguments[at(j)])] = recorder.state(n + j);
+  for (int j = 0; j < count; ++j) instead[arguments[j]] = recorder.state(n + j);
   const std::vector<int> here = recorder.append(all, {}, instead);
   const std::vector<int> plain = recorder.append(all);
   const auto chosen = [](const std::vector<int>& from, const std::vector<int>& nodes) {
     std::vector<int> result;
-    for (const int node : nodes) result.push_back(from[at(node)]);
+    for (const int node : nodes) result.push_back(from[node]);
     return result;
   };
   std::vector<int> motion = chosen(here, results[0]);
   std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
-  for (int i = 0; i < n; ++i) seeds.emplace_back(recorder.state(i), motion[at(i)]);
+  for (int i = 0; i < n; ++i) seeds.emplace_back(recorder.state(i), motion[i]);
   const std::vector<int> rates = tangents(recorder, chosen(plain, arguments), seeds);
   motion.insert(motion.end(), rates.begin(), rates.end());
   // Outputs that neither jump nor bend are what they are: samples know no u that is zero exactly, as a held one is.
   const std::vector<char> isBent = dependenceOf(all).bends;
   const auto seen = [&](const std::vector<int>& nodes) {
     std::vector<int> result;
-    for (const int node : nodes) result.push_back((isBent[at(node)] != 0 ? here : plain)[at(node)]);
+    for (const int node : nodes) result.push_back((isBent[node] != 0 ? here : plain)[node]);
     return recorder.finish(result);
   };
   FlowFormulation result(recorder.finish(motion), seen(results[1]), of.inputs, seen(results[2]));
@@ -103,7 +103,7 @@ std::optional<FlowFormulation> withSurfaces(const FlowFormulation& of) {
   result.hasClock = of.hasClock;
   result.starts = recorder.finish(chosen(plain, arguments));
   result.jumps = std::ranges::any_of(ofMotion, [&](int node) {
-    const Node& jump = all.nodes()[at(node)];
+    const Node& jump = all.nodes()[node];
     return jump.op == Op::sign && std::ranges::find(arguments, jump.a) != arguments.end();
   });
   return result;

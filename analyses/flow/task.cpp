@@ -8,11 +8,8 @@
 
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/outputs/plain_outputs.hpp"
-#include "scalars/index.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -29,8 +26,8 @@ std::shared_ptr<const Monomials> expandedMonomials(int symbols, int n) {
   }
   // ξ alone, ξ·ζ up to grade `degree - weight`, ζ·ζ: an upper bound on the count before it is built.
   if (symbols + n > 12) return nullptr;
-  std::vector<int> weights(at(symbols), 1);
-  weights.resize(at(symbols + n), weight);
+  std::vector<int> weights(symbols, 1);
+  weights.resize(symbols + n, weight);
   auto monomials = std::make_shared<const Monomials>(weights, degree);
   return monomials->count() <= 300 ? monomials : nullptr;
 }
@@ -44,8 +41,8 @@ std::vector<int> parametersOf(const std::vector<VaryingParameter>& inputs) {
 /// Whether every output is the number 0.
 bool isZero(const Program& f) {
   return std::ranges::all_of(f.outputNodes(), [&](int output) {
-    const Node& node = f.nodes()[at(output)];
-    return node.op == Op::constant && isEqual(f.constants()[at(node.a)], Interval(0.0));
+    const Node& node = f.nodes()[output];
+    return node.op == Op::constant && isEqual(f.constants()[node.a], Interval(0.0));
   });
 }
 
@@ -77,7 +74,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       richer(round.richer),
       scales(round.scales) {
   for (const char isBent : bentStates(motion)) bends.push_back(isBent);
-  if (question.clock >= 0) bends[at(question.clock)] = 0;
+  if (question.clock >= 0) bends[question.clock] = 0;
   varying = parametersOf(options.varying);
   mayGoOwnWays =
       varying.empty() && !dependsOnTime(motion) && !dependsOnTime(outputs) && !dependsOnTime(options.aside.values);
@@ -111,7 +108,7 @@ void FlowTask::setTimes(const std::vector<double>& outputTimes) {
 }
 
 void FlowTask::setLayouts(const FlowRound& round) {
-  std::vector<int> weights(at(embedding.symbols), 1);
+  std::vector<int> weights(embedding.symbols, 1);
   if (!round.emphasis.weights.empty()) std::ranges::remove_copy(round.emphasis.weights, weights.begin(), 0);
   active = static_cast<int>(std::ranges::count(weights, 1));
   std::vector<int> ladder = degreeLadder(weights, round.fixedDegree);

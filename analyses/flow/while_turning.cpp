@@ -41,16 +41,16 @@ std::vector<TurningPart> partsOf(const std::vector<double>& c, const Monomials& 
       double sum = 0;
       for (std::size_t g = 1; g < c.size(); ++g)
         if (monomials.exponent(static_cast<int>(g), l) > 0) sum += std::fabs(c[g]);
-      return sum * width(widest->xi[at(l)]);
+      return sum * width(widest->xi[l]);
     };
     int symbol = 0;
     for (int l = 1; l < monomials.symbols(); ++l)
       if (decides(l) > decides(symbol)) symbol = l;
     Box lower = widest->xi;
     Box upper = lower;
-    const double middle = midpoint(lower[at(symbol)]);  // exact: of dyadic numbers, few halvings deep
-    lower[at(symbol)] = Interval(lower[at(symbol)].lower(), middle);
-    upper[at(symbol)] = Interval(middle, upper[at(symbol)].upper());
+    const double middle = midpoint(lower[symbol]);  // exact: of dyadic numbers, few halvings deep
+    lower[symbol] = Interval(lower[symbol].lower(), middle);
+    upper[symbol] = Interval(middle, upper[symbol].upper());
     *widest = partIn(std::move(lower));
     parts.push_back(partIn(std::move(upper)));
   }

@@ -36,7 +36,7 @@ class BinnedPolynomial {
   /// By so much are all bounds off.
   double error() const { return error_; }
   long count() const { return static_cast<long>(value_.size()) - 1; }
-  double at(long edge) const { return value_[static_cast<std::size_t>(edge)]; }
+  double at(long edge) const { return value_[edge]; }
   /// Over a bin.
   std::pair<double, double> over(long bin) const { return std::minmax(at(bin), at(bin + 1)); }
   /// From edge to edge. Needs tables.

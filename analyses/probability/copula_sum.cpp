@@ -33,8 +33,8 @@ struct QuantityCourse {
                  half = static_cast<double>(until - from) / static_cast<double>(f.count());
     return {p + derivative * middle - size * half, q + derivative * middle + size * half};
   }
-  double startOf(long bin) const { return notAbove[static_cast<std::size_t>(first + bin)]; }
-  double endOf(long bin) const { return above[static_cast<std::size_t>(first + bin + 1)]; }
+  double startOf(long bin) const { return notAbove[first + bin]; }
+  double endOf(long bin) const { return above[first + bin + 1]; }
 
   /// Its slope in z, between the middles of the bins at two places, or between these where bins are endless.
   double chord(std::pair<long, long> lower, std::pair<long, long> upper, double low, double high, double range) const {
@@ -293,8 +293,8 @@ class CopulaSum {
       for (std::size_t i = from, end; i < until; i = end) {
         end = std::min(i + stride, until);
         const double next = slope[j] * NormalGrid::at(end), p = mass * (below[end] - below[i]);
-        part.below.mass[static_cast<std::size_t>(floorOf(std::min(last, next) + low) - part.below.first)] += p;
-        part.above.mass[static_cast<std::size_t>(ceilOf(std::max(last, next) + high) - part.above.first)] += p;
+        part.below.mass[floorOf(std::min(last, next) + low) - part.below.first] += p;
+        part.above.mass[ceilOf(std::max(last, next) + high) - part.above.first] += p;
         last = next;
       }
       parts.push_back(std::move(part));
@@ -345,7 +345,7 @@ class CopulaSum {
     for (std::size_t i = 0; i < side.mass.size(); ++i) {
       const long value = (side.first + static_cast<long>(i)) * (1L << doublings);
       const long clamped = isBelow ? std::clamp(value, edge, last) : std::clamp(value, into.first, edge);
-      into.mass[static_cast<std::size_t>(clamped - into.first)] += side.mass[i];
+      into.mass[clamped - into.first] += side.mass[i];
     }
     added_ += static_cast<double>(side.mass.size());
   }

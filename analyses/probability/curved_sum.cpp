@@ -27,8 +27,7 @@ class Curving {
   Curving(const std::vector<double>& c, const Monomials& monomials, const std::vector<char>& isOwn)
       : c_(c), m_(monomials), isOwn_(isOwn), linear_(isOwn.size(), 0.0) {
     for (std::size_t l = 0; l < isOwn.size(); ++l)
-      if (const int g = m_.linear(static_cast<int>(l)); isOwn[l] != 0 && g >= 0 && at(g) < c.size())
-        linear_[l] = c[at(g)];
+      if (const int g = m_.linear(static_cast<int>(l)); isOwn[l] != 0 && g >= 0 && at(g) < c.size()) linear_[l] = c[g];
     for (std::size_t g = 1; g < c.size(); ++g) {
       if (c[g] == 0) continue;
       Term term{c[g], 0, 0, true, true, {}};
@@ -39,9 +38,9 @@ class Curving {
         if (power == 0) continue;
         term.powers.emplace_back(at(l), power);
         term.isEven = term.isEven && power % 2 == 0;
-        areOwn = areOwn && at(l) < isOwn.size() && isOwn[at(l)] != 0;
+        areOwn = areOwn && at(l) < isOwn.size() && isOwn[l] != 0;
         for (int i = 1; i <= power; ++i)
-          weight *= static_cast<double>(++term.degree) / i * (at(l) < isOwn.size() ? linear_[at(l)] : 0.0);
+          weight *= static_cast<double>(++term.degree) / i * (at(l) < isOwn.size() ? linear_[l] : 0.0);
       }
       term.isMixed = term.powers.size() > 1 || !areOwn;
       term.weight = areOwn ? weight : 0;
@@ -76,7 +75,7 @@ class Curving {
   static void add(std::vector<double>& f, int power, double c) {
     if (c == 0) return;
     f.resize(std::max(f.size(), at(power) + 1), 0.0);
-    f[at(power)] += c;
+    f[power] += c;
   }
 
   /// Takes by·L^n off the sum; returns its size. Terms of L^n that the polynomial does not have are left as well, so
@@ -102,7 +101,7 @@ class Curving {
     sum.f.resize(isOwn_.size());
     sum.mixedOf.assign(isOwn_.size(), 0.0);
     sum.constant = c_.empty() ? 0.0 : c_[0];
-    const auto curveOf = [&](int n) { return at(n) < curve.size() ? curve[at(n)] : 0.0; };
+    const auto curveOf = [&](int n) { return at(n) < curve.size() ? curve[n] : 0.0; };
     double norm = std::fabs(sum.constant), length = 0, beside = 0;  // Σ|a|, Σ|u|
     for (const Term& term : terms_) {
       norm += std::fabs(term.c);

@@ -45,8 +45,7 @@ std::vector<long> greatestOf(const std::vector<long>& x, const std::vector<long>
 GridMasses massesOf(std::vector<long>::const_iterator begin) {
   const auto [least, greatest] = std::ranges::minmax(std::span(begin, levelCount));
   GridMasses masses{least, std::vector<double>(static_cast<std::size_t>(greatest - least + 1), 0.0)};
-  for (std::size_t i = 0; i < levelCount; ++i)
-    masses.mass[static_cast<std::size_t>(begin[static_cast<long>(i)] - least)] += 1.0 / levelCount;
+  for (std::size_t i = 0; i < levelCount; ++i) masses.mass[begin[static_cast<long>(i)] - least] += 1.0 / levelCount;
   return masses;
 }
 

@@ -80,7 +80,7 @@ JointMasses::JointMasses(int symbols, const std::vector<FlowSymbol>& quantities,
       if (quantities[q].symbol < 0) continue;
       rows.push_back(i);
       group.symbols.push_back(quantities[q].symbol);
-      groupOf_[at(quantities[q].symbol)] = static_cast<int>(groups_.size());
+      groupOf_[quantities[q].symbol] = static_cast<int>(groups_.size());
       below.push_back(belowOf(q));
     }
     if (rows.empty()) continue;
@@ -92,10 +92,10 @@ JointMasses::JointMasses(int symbols, const std::vector<FlowSymbol>& quantities,
   for (std::size_t q = 0; q < uncertain.size(); ++q) {
     const Distribution& distribution = uncertain[q]->distribution;
     isPlain_ = isPlain_ && distribution.isPrecise();
-    if (quantities[q].symbol < 0 || groupOf_[at(quantities[q].symbol)] >= 0) continue;
+    if (quantities[q].symbol < 0 || groupOf_[quantities[q].symbol] >= 0) continue;
     Group group;
     group.symbols = {quantities[q].symbol};
-    groupOf_[at(quantities[q].symbol)] = static_cast<int>(groups_.size());
+    groupOf_[quantities[q].symbol] = static_cast<int>(groups_.size());
     if (!distribution.focal().empty())
       addEvidence(group, quantities[q], distribution);
     else if (const std::vector<Interval> below = belowOf(q);
@@ -119,7 +119,7 @@ JointMasses::JointMasses(int symbols, const std::vector<FlowSymbol>& quantities,
   for (const std::vector<std::size_t>& together : dependence.unknown) {
     std::vector<std::size_t> block;
     for (const std::size_t q : together)
-      if (quantities[q].symbol >= 0) block.push_back(at(groupOf_[at(quantities[q].symbol)]));
+      if (quantities[q].symbol >= 0) block.push_back(at(groupOf_[quantities[q].symbol]));
     for (const std::size_t g : block) isPlaced[g] = 1;
     if (!block.empty()) blocks_.push_back(std::move(block));
   }
@@ -131,7 +131,7 @@ JointMasses::JointMasses(int symbols, const std::vector<FlowSymbol>& quantities,
 // ---- Parts ----------------------------------------------------------------------------------------------------------
 
 JointMasses::Part JointMasses::whole() const {
-  Part all{std::vector<long>(at(symbols_), 0), std::vector<long>(at(symbols_), bins), {}, {}};
+  Part all{std::vector<long>(symbols_, 0), std::vector<long>(symbols_, bins), {}, {}};
   all.elements.resize(groups_.size());
   all.boxes.resize(groups_.size());
   return all;
@@ -148,16 +148,16 @@ FlowPart JointMasses::boxOf(const Part& part) {
 
 /// Whether its group is independent of all others.
 bool JointMasses::isAlone(int symbol) const {
-  const int group = groupOf_[at(symbol)];
+  const int group = groupOf_[symbol];
   return group >= 0 && std::ranges::any_of(blocks_, [&](const auto& b) { return b.size() == 1 && b[0] == at(group); });
 }
 
 int JointMasses::copulaOf(int symbol) const {
-  const int group = groupOf_[at(symbol)];
-  return group >= 0 && groups_[at(group)].copula ? group : -1;
+  const int group = groupOf_[symbol];
+  return group >= 0 && groups_[group].copula ? group : -1;
 }
 
-const JointMasses::Group& JointMasses::groupOf(int symbol) const { return groups_[at(groupOf_[at(symbol)])]; }
+const JointMasses::Group& JointMasses::groupOf(int symbol) const { return groups_[groupOf_[symbol]]; }
 
 template <class Take>
 void JointMasses::forEach(const Part& part, std::size_t group, const Take& take) const {
@@ -181,8 +181,8 @@ JointMasses::Part JointMasses::with(const Part& part, std::size_t group, std::ve
     from = std::min<long>(from, g.from[i]);
     until = std::max<long>(until, g.until[i]);
   }
-  found.first[at(g.symbols[0])] = from;
-  found.count[at(g.symbols[0])] = until - from;
+  found.first[g.symbols[0]] = from;
+  found.count[g.symbols[0]] = until - from;
   found.elements[group] = std::make_shared<const std::vector<std::uint32_t>>(std::move(elements));
   return found;
 }
@@ -196,8 +196,8 @@ JointMasses::Part JointMasses::with(const Part& part, std::size_t group, std::ve
       const auto [first, end] = g.copula->binsOf(box, s);
       from = std::min(from, first), until = std::max(until, end);
     }
-    found.first[at(g.symbols[s])] = from;
-    found.count[at(g.symbols[s])] = until - from;
+    found.first[g.symbols[s]] = from;
+    found.count[g.symbols[s]] = until - from;
   }
   found.boxes[group] = std::make_shared<const std::vector<CopulaMasses::Box>>(std::move(boxes));
   return found;
@@ -208,7 +208,7 @@ JointMasses::Part JointMasses::with(const Part& part, std::size_t group, std::ve
 template <class Side>
 std::vector<JointMasses::Part> JointMasses::apart(const Part& part, int symbol, double least,
                                                   const Side& sideOf) const {
-  const std::size_t number = at(groupOf_[at(symbol)]);
+  const std::size_t number = at(groupOf_[symbol]);
   const Group& group = groups_[number];
   std::vector<Part> parts;
   const auto collect = [&](auto& sides) {
@@ -244,24 +244,24 @@ std::vector<JointMasses::Part> JointMasses::apart(const Part& part, int symbol, 
 }
 
 std::vector<JointMasses::Part> JointMasses::cut(const Part& part, int symbol, long edge) const {
-  const long first = part.first[at(symbol)], until = first + part.count[at(symbol)];
+  const long first = part.first[symbol], until = first + part.count[symbol];
   if (!isAlone(symbol) || edge <= first || edge >= until) return {part};
   if (!isOfBins(groupOf(symbol)))
     return apart(part, symbol, 0x1p-18, [&](long from, long end, bool isSmall) {
       return end <= edge ? 0 : from >= edge ? 1 : isSmall ? 2 : -1;
     });
   std::vector<Part> both(2, part);
-  both[0].count[at(symbol)] = edge - first;
-  both[1].first[at(symbol)] = edge;
-  both[1].count[at(symbol)] = until - edge;
+  both[0].count[symbol] = edge - first;
+  both[1].first[symbol] = edge;
+  both[1].count[symbol] = until - edge;
   return both;
 }
 
 std::vector<JointMasses::Part> JointMasses::halves(const Part& part, int symbol) const {
-  const long first = part.first[at(symbol)], count = part.count[at(symbol)];
+  const long first = part.first[symbol], count = part.count[symbol];
   if (!isAlone(symbol) || count < 2) return {part};
   if (isOfBins(groupOf(symbol))) return cut(part, symbol, first + count / 2);
-  const double least = massOf(part, at(groupOf_[at(symbol)])) * 0x1p-14;
+  const double least = massOf(part, at(groupOf_[symbol])) * 0x1p-14;
   std::vector<Part> halves = apart(part, symbol, least, [&](long from, long until, bool isSmall) {
     if (!isSmall && 4 * (until - from) > count) return -1;
     return 2 * (until - from) > count ? 2 : from + until > 2 * first + count ? 1 : 0;
@@ -280,9 +280,9 @@ double JointMasses::massOf(const Part& part, std::size_t group) const {
     return mass;
   }
   if (isOfBins(g)) {
-    Work::count(Work::bin, 0.07 * static_cast<double>(part.count[at(g.symbols[0])]));
-    const auto begin = g.mass.begin() + part.first[at(g.symbols[0])];
-    return std::accumulate(begin, begin + part.count[at(g.symbols[0])], 0.0);
+    Work::count(Work::bin, 0.07 * static_cast<double>(part.count[g.symbols[0]]));
+    const auto begin = g.mass.begin() + part.first[g.symbols[0]];
+    return std::accumulate(begin, begin + part.count[g.symbols[0]], 0.0);
   }
   double mass = 0;
   Work::count(Work::focalElement, 0.1 * static_cast<double>(g.mass.size()));
@@ -323,8 +323,8 @@ class JointMasses::Sides {
   }
 
   void put(const std::pair<double, double>& bound, double mass) {
-    below_.mass[static_cast<std::size_t>(floorOf(bound.first) - below_.first)] += mass;
-    above_.mass[static_cast<std::size_t>(ceilOf(bound.second) - above_.first)] += mass;
+    below_.mass[floorOf(bound.first) - below_.first] += mass;
+    above_.mass[ceilOf(bound.second) - above_.first] += mass;
   }
 
   GridBounds found(double elements) {
@@ -349,7 +349,7 @@ GridBounds JointMasses::boundsOfBins(const Part& part, std::size_t group, const 
   const BinnedPolynomial own(f[symbol], count * finer);
   Sides sides(own, rest, step);
   for (long i = 0; i < count * finer; ++i)
-    sides.put(own.over(i), g.mass[static_cast<std::size_t>(first + i / finer)] / static_cast<double>(finer));
+    sides.put(own.over(i), g.mass[first + i / finer] / static_cast<double>(finer));
   return sides.found(static_cast<double>(count * finer));
 }
 
@@ -359,8 +359,8 @@ GridSum JointMasses::boundsOf(const Part& part, std::size_t group, const std::ve
   if (isOfBins(g)) return {boundsOfBins(part, group, f, rest, step, 1), 0};
   CopulaMasses::Function function;
   for (const int l : g.symbols) {
-    function.f.emplace_back(f[at(l)], part.count[at(l)]);
-    function.first.push_back(part.first[at(l)]);
+    function.f.emplace_back(f[l], part.count[l]);
+    function.first.push_back(part.first[l]);
     function.f.back().makeTables();
   }
   if (g.copula) {
@@ -448,7 +448,7 @@ GridSum JointMasses::sumOf(const Part& part, const std::vector<std::vector<doubl
                            const std::vector<MixedTerm>& terms, Interval rest, double step, bool maySwap) const {
   const auto sizeOf = [&](int symbol) {
     double size = 0;
-    for (const double c : f[at(symbol)]) size += std::fabs(c);
+    for (const double c : f[symbol]) size += std::fabs(c);
     return size;
   };
   // What hardly varies counts as error.
@@ -468,7 +468,7 @@ GridSum JointMasses::sumOf(const Part& part, const std::vector<std::vector<doubl
     }
   }
   for (int l = 0; l < symbols_; ++l)
-    if (groupOf_[at(l)] < 0) beside += sizeOf(l);
+    if (groupOf_[l] < 0) beside += sizeOf(l);
   beside *= bounds::up;
   rest = Interval(subDown(rest.lower(), beside), addUp(rest.upper(), beside));
   double error = error_;

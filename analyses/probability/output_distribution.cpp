@@ -150,8 +150,8 @@ class Distributor {
   void add(BoxCell cell) {
     const Monomials& m = *cell.monomials;
     Separated& s = cell.separated;
-    s.c.assign(at(m.symbols()), {});
-    s.mixedOf.assign(at(m.symbols()), 0.0);
+    s.c.assign(m.symbols(), {});
+    s.mixedOf.assign(m.symbols(), 0.0);
     for (std::size_t g = 0; g < cell.model.c.size(); ++g) {
       const double c = cell.model.c[g], size = std::fabs(c);
       s.norm += size;
@@ -166,7 +166,7 @@ class Distributor {
         s.constant = c;
       } else if (count == 1) {
         const std::size_t power = at(m.exponent(static_cast<int>(g), symbol));
-        std::vector<double>& own = s.c[at(symbol)];
+        std::vector<double>& own = s.c[symbol];
         own.resize(std::max(own.size(), power + 1), 0.0);
         own[power] = c;
       } else if (isTogether && masses_.copulaOf(symbol) >= 0) {
@@ -177,7 +177,7 @@ class Distributor {
       } else {
         s.mixed += size;
         for (int l = 0; l < m.symbols(); ++l)
-          if (m.exponent(static_cast<int>(g), l) > 0) s.mixedOf[at(l)] += size;
+          if (m.exponent(static_cast<int>(g), l) > 0) s.mixedOf[l] += size;
       }
     }
     if (s.mixed > 0 && s.together.empty()) curve(cell);
@@ -205,7 +205,7 @@ class Distributor {
   /// cut, has their bounds. Edges between parts, by symbol, are cut at once, those up to `last` have been.
   void cover(const JointMasses::Part& joint, std::pair<int, long> last = {-1, 0}) {
     const auto isAcross = [&](int l, long edge) {
-      return joint.first[at(l)] < edge && edge < joint.first[at(l)] + joint.count[at(l)];
+      return joint.first[l] < edge && edge < joint.first[l] + joint.count[l];
     };
     std::vector<const SurrogatePart*> met;
     std::vector<std::pair<int, long>> edges;
@@ -215,7 +215,7 @@ class Distributor {
       std::vector<std::pair<int, long>> own;
       for (int l = 0; l < part.monomials->symbols() && isMet; ++l) {
         const auto [first, count] = QuantityMasses::of(part.part, l);
-        const long from = joint.first[at(l)], until = from + joint.count[at(l)];
+        const long from = joint.first[l], until = from + joint.count[l];
         isMet = from < first + count && first < until;
         for (const long edge : {first, first + count})
           if (isAcross(l, edge)) own.emplace_back(l, edge);
@@ -265,7 +265,7 @@ class Distributor {
         const int symbol = static_cast<int>(most - mixedOf.begin());
         if (*most == 0) break;
         *most = 0;
-        if (widest->part.count[at(symbol)] >= finest) halves = masses_.halves(widest->part, symbol);
+        if (widest->part.count[symbol] >= finest) halves = masses_.halves(widest->part, symbol);
       }
       if (halves.size() < 2) {
         widest->isFinal = true;
@@ -366,7 +366,7 @@ class Distributor {
         for (std::size_t i = 0; i < side.mass.size(); ++i) {
           const long value = std::clamp(side.first + static_cast<long>(i), stepBelow(cell.model.bound.lower()),
                                         stepAbove(cell.model.bound.upper()));
-          all[static_cast<std::size_t>(value - first)] += side.mass[i];
+          all[value - first] += side.mass[i];
         }
       };
       include(own.sum.below, high);

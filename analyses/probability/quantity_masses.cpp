@@ -21,7 +21,7 @@ bool QuantityMasses::hold(const FlowPart& part) {
 }
 
 std::pair<long, long> QuantityMasses::of(const FlowPart& part, int symbol) {
-  const double centre = part.centre[at(symbol)], half = part.half[at(symbol)];
+  const double centre = part.centre[symbol], half = part.half[symbol];
   return {static_cast<long>((centre - half + 1) * bins / 2), static_cast<long>(half * bins)};
 }
 
@@ -33,7 +33,7 @@ namespace {
 class Edges {
  public:
   Edges(const FlowSymbol& symbol, const Distribution& distribution) : symbol_(symbol), distribution_(distribution) {
-    below_.assign(at(bins + 1), Interval(0.0, 1.0));
+    below_.assign(bins + 1, Interval(0.0, 1.0));
     below_.front() = Interval(0.0);  // what has the value there counts in the first bin
     below_.back() = Interval(1.0);
     if (distribution.isPrecise())
@@ -59,13 +59,13 @@ class Edges {
 
   void find(int i) {
     const Interval value = Interval(symbol_.centre) + Interval(symbol_.half) * Interval(-1 + i * (2.0 / bins));
-    below_[at(i)] = distribution_.enclosedBelow(value);
+    below_[i] = distribution_.enclosedBelow(value);
     ++found_;
   }
 
   void fill(int from, int until) {
     constexpr double hardly = 1.01, nothing = 0x1p-12;
-    const Interval &first = below_[at(from)], &second = below_[at(until)];
+    const Interval &first = below_[from], &second = below_[until];
     if (until - from < 2) return;
     if (second.upper() - first.lower() <= std::max(hardly * std::min(width(first), width(second)), nothing)) {
       const Interval between(first.lower(), second.upper());
@@ -143,10 +143,10 @@ std::vector<double> leansOf(const FlowSymbol& symbol, const Distribution& distri
   const auto valueAt = [&](double xi) { return Interval(symbol.centre) + Interval(symbol.half) * Interval(xi); };
   std::vector<double> leans;
   for (int i = 0; i < count; ++i) {
-    double lean = mass[at(i)];
+    double lean = mass[i];
     if (i > 0 && i + 1 < count &&
         distribution.isMonotone(hull(valueAt(-1 + (i - 1) * width), valueAt(-1 + (i + 2) * width))))
-      lean = std::min(lean, 0.25 * std::fabs(mass[at(i + 1)] - mass[at(i - 1)]));
+      lean = std::min(lean, 0.25 * std::fabs(mass[i + 1] - mass[i - 1]));
     leans.push_back(lean);
   }
   return leans;
@@ -158,7 +158,7 @@ QuantityMasses::QuantityMasses(const Surrogate& surrogate, const std::vector<con
     const FlowSymbol& of = surrogate.quantities[q];
     if (of.symbol < 0) continue;
     const Distribution& distribution = uncertain[q]->distribution;
-    Symbol& symbol = symbols_[at(of.symbol)];
+    Symbol& symbol = symbols_[of.symbol];
     BinMasses known = massesBetween(edgesOf(of, distribution));
     symbol.mass = std::move(known.mass);
     symbol.error = known.error;
@@ -170,7 +170,7 @@ QuantityMasses::QuantityMasses(const Surrogate& surrogate, const std::vector<con
 /// On a bin f(ξ) = η^n ζ^m is f(middle) + f'(middle) (ξ - middle) + f'' (ξ - middle)²/2, |f'| <= n/h + m/k and
 /// |f''| <= (n/h + m/k)² with the parts' half-widths h and k.
 Interval QuantityMasses::moment(int symbol, const FlowPart& eta, int n, const FlowPart& zeta, int m) const {
-  const Symbol& s = symbols_[at(symbol)];
+  const Symbol& s = symbols_[symbol];
   const auto [first, count] = of(eta, symbol);
   const auto [otherFirst, otherCount] = of(zeta, symbol);
   const long from = std::max(first, otherFirst), until = std::min(first + count, otherFirst + otherCount);
@@ -179,16 +179,16 @@ Interval QuantityMasses::moment(int symbol, const FlowPart& eta, int n, const Fl
     const auto own = [&](long begin, long all) {
       return (2 * static_cast<double>(i - begin) + 1) / static_cast<double>(all) - 1;
     };
-    const double p = s.mass[static_cast<std::size_t>(i)];
+    const double p = s.mass[i];
     double value = 1;
     const double x = own(first, count), z = own(otherFirst, otherCount);
     for (int j = 0; j < n; ++j) value *= x;
     for (int j = 0; j < m; ++j) value *= z;
     sum += p * value;
-    lean += s.lean[static_cast<std::size_t>(i)];
+    lean += s.lean[i];
     mass += p;
   }
-  const double slope = n / eta.half[at(symbol)] + m / zeta.half[at(symbol)], reach = 1.0 / bins;
+  const double slope = n / eta.half[symbol] + m / zeta.half[symbol], reach = 1.0 / bins;
   // The lean is of masses that are off by `error` in all; |f| <= 1.
   const double leanError =
       n + m > 0 ? slope * (lean + s.error / bins) + 0.5 * slope * slope * reach * reach * (mass + s.error) : 0;

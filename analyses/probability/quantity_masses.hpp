@@ -38,8 +38,8 @@ class QuantityMasses {
   QuantityMasses(const Surrogate& surrogate, const std::vector<const Uncertain*>& uncertain);
 
   /// The probabilities of a symbol's bins; Σ|error| is at most `error`.
-  const std::vector<double>& mass(int symbol) const { return symbols_[static_cast<std::size_t>(symbol)].mass; }
-  double error(int symbol) const { return symbols_[static_cast<std::size_t>(symbol)].error; }
+  const std::vector<double>& mass(int symbol) const { return symbols_[symbol].mass; }
+  double error(int symbol) const { return symbols_[symbol].error; }
 
   /// ∫ η^n ζ^m dF over the values of a symbol that lie in both parts, of which η and ζ, in [-1,1], are the own ones.
   Interval moment(int symbol, const FlowPart& eta, int n, const FlowPart& zeta, int m) const;

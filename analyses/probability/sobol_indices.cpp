@@ -14,11 +14,8 @@
 #include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
-#include "scalars/index.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -73,10 +70,10 @@ class Variances {
       Box box;
       Interval beside(1.0);  // probability of the part's values of all other symbols
       for (int l = 0; l < symbols_; ++l) {
-        if (isIn[at(l)] != 0)
-          box.push_back({piece.part->centre[at(l)], piece.part->half[at(l)]});
+        if (isIn[l] != 0)
+          box.push_back({piece.part->centre[l], piece.part->half[l]});
         else
-          beside = beside * piece.masses[at(l)];
+          beside = beside * piece.masses[l];
       }
       Group& group = groups[box];
       group.piece = &piece;
@@ -84,7 +81,7 @@ class Variances {
         Interval own = Interval(c) * beside;
         Powers left;
         for (const auto& [l, n] : powers) {
-          if (isIn[at(l)] != 0)
+          if (isIn[l] != 0)
             left.emplace_back(l, n);
           else
             own = own * moment(piece, l, n);
@@ -104,10 +101,10 @@ class Variances {
 
   /// E[Var(y | all but symbol l)]. Where no part is cut in l, only terms that hold it matter.
   Interval left(int l, const Interval& second) const {
-    const auto isCut = [&](const Slice& piece) { return piece.part->half[at(l)] < 1; };
+    const auto isCut = [&](const Slice& piece) { return piece.part->half[l] < 1; };
     if (std::ranges::any_of(pieces_, isCut)) {
-      std::vector<char> others(at(symbols_), 1);
-      others[at(l)] = 0;
+      std::vector<char> others(symbols_, 1);
+      others[l] = 0;
       return second - meanSquare(others);
     }
     Interval sum(0.0);
@@ -197,9 +194,7 @@ class Variances {
     }
   }
 
-  static Interval moment(const Slice& piece, int l, int n) {
-    return n == 0 ? Interval(1.0) : piece.moments[at(l)][at(n - 1)];
-  }
+  static Interval moment(const Slice& piece, int l, int n) { return n == 0 ? Interval(1.0) : piece.moments[l][n - 1]; }
 
   static Interval massOf(const Slice& piece) {
     Interval mass(1.0);
@@ -234,7 +229,7 @@ class Variances {
     const auto terms = static_cast<double>(group.terms.size());
     Work::count(Work::momentTerm, 0.5 * terms * terms * symbols_);
     for (int l = 0; l < symbols_; ++l)
-      if (isIn[at(l)] != 0) mass = mass * group.piece->masses[at(l)];
+      if (isIn[l] != 0) mass = mass * group.piece->masses[l];
     for (auto one = group.terms.begin(); one != group.terms.end(); ++one)
       for (auto other = one; other != group.terms.end(); ++other) {
         const Interval product =
@@ -249,9 +244,8 @@ class Variances {
     const FlowPart &a = *one.piece->part, &b = *other.piece->part;
     std::vector<int> in;
     for (int l = 0; l < symbols_; ++l) {
-      if (isIn[at(l)] == 0) continue;
-      if (!(std::fabs(a.centre[at(l)] - b.centre[at(l)]) < std::max(a.half[at(l)], b.half[at(l)])))
-        return Interval(0.0);
+      if (isIn[l] == 0) continue;
+      if (!(std::fabs(a.centre[l] - b.centre[l]) < std::max(a.half[l], b.half[l]))) return Interval(0.0);
       in.push_back(l);
     }
     std::map<std::tuple<int, int, int>, Interval> known;
@@ -312,7 +306,7 @@ SobolIndices sobolIndices(const Surrogate& surrogate, const std::vector<Surrogat
   };
   if (parts.empty() || !std::ranges::all_of(parts, isKnown)) return indices;
   const Variances of(surrogate, parts, output, masses);
-  std::vector<char> all(at(of.symbols()), 1);
+  std::vector<char> all(of.symbols(), 1);
   const double r = of.radius();
   const Interval mean = of.mean(), meanSquare = sqr(mean);
   const Interval second = of.meanSquare(all);
@@ -325,8 +319,8 @@ SobolIndices sobolIndices(const Surrogate& surrogate, const std::vector<Surrogat
       indices.first[q] = indices.total[q] = shareOf(Interval(0.0), variance, r);
       continue;
     }
-    std::vector<char> alone(at(of.symbols()), 0);
-    alone[at(l)] = 1;
+    std::vector<char> alone(of.symbols(), 0);
+    alone[l] = 1;
     indices.first[q] = shareOf(of.meanSquare(alone) - meanSquare, variance, r);
     indices.total[q] = shareOf(of.left(l, second), variance, r);
   }

@@ -93,7 +93,7 @@ GridMasses onGrid(const Summand& summand, double step) {
   GridMasses masses{static_cast<long>(std::floor(least)), {}};
   masses.mass.assign(static_cast<std::size_t>(static_cast<long>(std::floor(greatest)) - masses.first + 2), 0.0);
   for (long i = 0; i < summand.bins; ++i) {
-    const double place = places[static_cast<std::size_t>(i)], below = std::floor(place), share = place - below;
+    const double place = places[i], below = std::floor(place), share = place - below;
     const auto number = static_cast<std::size_t>(static_cast<long>(below) - masses.first);
     masses.mass[number] += (1 - share) * summand.mass[i];
     masses.mass[number + 1] += share * summand.mass[i];

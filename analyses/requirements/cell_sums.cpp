@@ -8,11 +8,8 @@
 #include "analyses/probability/curved_sum.hpp"
 #include "analyses/requirements/cells.hpp"
 #include "scalars/elementary/rounding.hpp"
-#include "scalars/index.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -71,8 +68,8 @@ std::optional<Cells::Separated> Cells::separated(const Cell& cell, std::size_t p
   const Cell::Local& local = cell.locals_[place];
   const std::vector<double>& c = local.c[margin];
   if (c.empty() || !isBounded(sag) || !isInside(cell.part_, local.part)) return std::nullopt;
-  std::vector<char> isOwn(at(models_.symbols), 1);
-  for (const int l : question_.besides) isOwn[at(l)] = 0;
+  std::vector<char> isOwn(models_.symbols, 1);
+  for (const int l : question_.besides) isOwn[l] = 0;
   CurvedSum sum = curvedSumOf(c, *local.of->monomials, isOwn);
   const double radius = local.radius[margin];
   const double least = subDown(addDown(sum.constant, sag.lower()), addUp(sum.down, radius));
@@ -84,7 +81,7 @@ std::optional<Cells::Separated> Cells::separated(const Cell& cell, std::size_t p
 CellSums Cells::sums(const Cell& cell, const std::vector<std::size_t>& margins) const {
   const bool isAlways = question_.when == CellQuestion::When::always;
   CellSums sums;
-  sums.mixedOf.assign(at(models_.symbols), 0.0);
+  sums.mixedOf.assign(models_.symbols, 0.0);
   // Throughout: on all chords, and at the output time where there is one alone.
   std::vector<Separated> throughout;
   bool isKnown = isAlways || margins.size() == 1;
@@ -98,7 +95,7 @@ CellSums Cells::sums(const Cell& cell, const std::vector<std::size_t>& margins) 
   for (const std::size_t i : margins) {
     for (const Cell::Chord& chord : cell.chords_)
       for (const std::size_t local : {chord.before, chord.behind})
-        if (isKnown) include(local, i, chord.of->sag[at(question_.margins[i])]);
+        if (isKnown) include(local, i, chord.of->sag[question_.margins[i]]);
     if (question_.from == question_.until)
       for (const Cell::Moment& moment : cell.moments_)
         for (const std::size_t local : moment.snapshots)

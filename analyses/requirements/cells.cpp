@@ -59,15 +59,15 @@ const Cells::Tables& Cells::tablesOf(const FlowSnapshot& snapshot) const {
 
 std::unique_ptr<Cell> Cells::whole() {
   auto cell = std::make_unique<Cell>();
-  cell->part_ = {std::vector<double>(at(models_.symbols), 0.0), std::vector<double>(at(models_.symbols), 1.0)};
+  cell->part_ = {std::vector<double>(models_.symbols, 0.0), std::vector<double>(models_.symbols, 1.0)};
   std::map<const FlowSnapshot*, std::size_t> places;
   const auto placeOf = [&](const FlowSnapshot& snapshot) {
     const auto [found, isNew] = places.try_emplace(&snapshot, cell->locals_.size());
     if (isNew) {
       Cell::Local local{&snapshot, snapshot.part, {}, {}, {}};
       for (const int margin : question_.margins) {
-        local.c.push_back(snapshot.outputs[at(margin)].c);
-        local.radius.push_back(snapshot.outputs[at(margin)].radius);
+        local.c.push_back(snapshot.outputs[margin].c);
+        local.radius.push_back(snapshot.outputs[margin].radius);
       }
       cell->locals_.push_back(std::move(local));
     }
@@ -87,7 +87,7 @@ std::unique_ptr<Cell> Cells::whole() {
 
 /// Σ over monomials of their least and greatest values; sums of N coefficients are off by N u Σ|c|.
 Interval Cells::rangeOf(const Cell::Local& local, std::size_t margin) const {
-  const Interval& bound = local.of->outputs[at(question_.margins[margin])].bound;
+  const Interval& bound = local.of->outputs[question_.margins[margin]].bound;
   const std::vector<double>& c = local.c[margin];
   if (c.empty()) return bound;
   const Tables& tables = tablesOf(*local.of);
@@ -198,13 +198,13 @@ void Cells::dropUnused(Cell& cell) const {
 }
 
 std::vector<int> Cells::symbolsOf(const Cell& cell) const {
-  std::vector<double> weight(at(models_.symbols), 0.0);
+  std::vector<double> weight(models_.symbols, 0.0);
   // What no bisection makes less: radii, and how far outputs leave their chords.
   std::vector<double> sag(cell.locals_.size() * question_.margins.size(), 0.0);
   for (const Cell::Chord& chord : cell.chords_)
     for (const std::size_t place : {chord.before, chord.behind})
       for (std::size_t i = 0; i < question_.margins.size(); ++i)
-        if (const Interval& by = chord.of->sag[at(question_.margins[i])]; isBounded(by)) {
+        if (const Interval& by = chord.of->sag[question_.margins[i]]; isBounded(by)) {
           double& most = sag[place * question_.margins.size() + i];
           most = std::max(most, 0.5 * width(by));
         }
@@ -218,7 +218,7 @@ std::vector<int> Cells::symbolsOf(const Cell& cell) const {
       for (std::size_t g = 1; g < local.c[i].size(); ++g) {
         const double size = std::fabs(local.c[i][g]);
         all += size;
-        for (const int l : tables.symbols[g]) mass[at(l)] += size;
+        for (const int l : tables.symbols[g]) mass[l] += size;
       }
       for (std::size_t l = 0; l < mass.size() && all > 0 && std::isfinite(all); ++l)
         weight[l] = std::max(weight[l], mass[l] / all);
@@ -228,11 +228,11 @@ std::vector<int> Cells::symbolsOf(const Cell& cell) const {
     for (std::size_t l = 0; l < weight.size(); ++l)
       if (local.part.half[l] < cell.part_.half[l]) weight[l] += 1;
   constexpr double hardly = 0.1, finest = 0x1p-40;
-  for (const int l : question_.besides) weight[at(l)] = 0;
+  for (const int l : question_.besides) weight[l] = 0;
   std::vector<int> symbols;
   for (int l = 0; l < models_.symbols; ++l)
-    if (weight[at(l)] > hardly && cell.part_.half[at(l)] > finest) symbols.push_back(l);
-  std::ranges::stable_sort(symbols, [&](int a, int b) { return weight[at(a)] > weight[at(b)]; });
+    if (weight[l] > hardly && cell.part_.half[l] > finest) symbols.push_back(l);
+  std::ranges::stable_sort(symbols, [&](int a, int b) { return weight[a] > weight[b]; });
   return symbols;
 }
 
@@ -316,7 +316,7 @@ Interval Cells::tightRangeOf(const Cell::Local& local, std::size_t margin, const
   if (local.c[margin].empty() || known.lower() > 0 || known.upper() < 0) return known;
   const Tables& tables = tablesOf(*local.of);
   std::vector<double> c = local.c[margin];
-  c.resize(at(local.of->monomials->count()), 0.0);
+  c.resize(local.of->monomials->count(), 0.0);
   const Box whole(at(local.of->monomials->symbols()), Interval(-1.0, 1.0));
   const double radius = local.radius[margin];
   return intersection(tables.range(c.data(), whole, tolerance) + Interval(-radius, radius), known);
@@ -328,7 +328,7 @@ std::vector<double> Cells::lowestPoint(const Cell::Local& local, std::size_t mar
   const std::vector<double>& c = local.c[margin];
   const Monomials& m = *local.of->monomials;
   const Tables& tables = tablesOf(*local.of);
-  std::vector<double> eta(at(models_.symbols), 0.0);
+  std::vector<double> eta(models_.symbols, 0.0);
   bool isChanged = true;
   for (int sweep = 0; sweep < sweeps && isChanged; ++sweep) {
     isChanged = false;
@@ -339,19 +339,19 @@ std::vector<double> Cells::lowestPoint(const Cell::Local& local, std::size_t mar
         if (power == 0 || c[g] == 0) continue;
         double term = c[g];
         for (const int other : tables.symbols[g])
-          for (int n = m.exponent(static_cast<int>(g), other); other != l && n > 0; --n) term *= eta[at(other)];
-        f[at(power)] += term;
+          for (int n = m.exponent(static_cast<int>(g), other); other != l && n > 0; --n) term *= eta[other];
+        f[power] += term;
       }
       const auto valueAt = [&](double x) {
         double value = 0;
         for (std::size_t n = f.size(); n-- > 0;) value = value * x + f[n];
         return value;
       };
-      double least = valueAt(eta[at(l)]);
+      double least = valueAt(eta[l]);
       for (int i = 0; i <= places; ++i) {
         const double x = -1 + 2.0 * i / places, value = valueAt(x);
         if (!(value < least)) continue;
-        least = value, eta[at(l)] = x, isChanged = true;
+        least = value, eta[l] = x, isChanged = true;
       }
     }
   }
@@ -396,13 +396,13 @@ std::optional<Cells::Form> Cells::formOf(const Cell& cell, std::size_t place, st
   if (c.empty() || !isInside(cell.part_, local.part)) return std::nullopt;
   Work::count(Work::cellTerm, static_cast<double>(c.size()) + 40);
   const Tables& tables = tablesOf(*local.of);
-  Form form{c[0], 0, 0, local.radius[margin], std::vector<double>(at(models_.symbols), 0.0)};
+  Form form{c[0], 0, 0, local.radius[margin], std::vector<double>(models_.symbols, 0.0)};
   double norm = std::fabs(c[0]);
   for (std::size_t g = 1; g < c.size(); ++g) {
     norm += std::fabs(c[g]);
     const int linear = tables.linear[g];
     if (linear >= 0 && std::ranges::find(question_.besides, linear) == question_.besides.end()) {
-      form.slope[at(linear)] = c[g];
+      form.slope[linear] = c[g];
       continue;
     }
     const bool isEven = tables.isEven[g] != 0;
@@ -466,7 +466,7 @@ std::vector<Cells::Bounded> Cells::throughout(const Cell& cell, CellPlanes& plan
   for (std::size_t i = 0; i < question_.margins.size(); ++i) {
     for (const Cell::Chord& chord : cell.chords_)
       for (const std::size_t local : {chord.before, chord.behind})
-        include(local, i, chord.of->sag[at(question_.margins[i])]);
+        include(local, i, chord.of->sag[question_.margins[i]]);
     if (question_.from == question_.until)
       for (const Cell::Moment& moment : cell.moments_)
         for (const std::size_t local : moment.snapshots) include(local, i, Interval(0.0));
@@ -533,7 +533,7 @@ Cell::Verdict Cells::verdictAt(const std::vector<double>& xi) {
     if (!covers(local.part)) continue;
     for (int l = 0; l < models_.symbols; ++l) {
       if (isBeside(at(l))) continue;
-      const double half = local.part.half[at(l)], middle = (xi[at(l)] - local.part.centre[at(l)]) / half;
+      const double half = local.part.half[l], middle = (xi[l] - local.part.centre[l]) / half;
       const double lower = std::max(middle - 2 * off / half, -1.0), upper = std::min(middle + 2 * off / half, 1.0);
       narrow(local, l, 0.5 * (lower + upper), 0.5 * (upper - lower) + off);
     }

@@ -13,12 +13,9 @@
 #include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
-#include "scalars/index.hpp"
 
 namespace gamut {
 namespace {
-
-using detail::at;
 
 constexpr std::size_t mostWaiting = 2500;
 constexpr double finest = 0x1p19, coarsest = 0x1p8;  // steps from the least to the greatest of a sum
@@ -190,9 +187,9 @@ class Weighing {
     constexpr double little = 0.02;
     std::vector<int> order(mixedOf.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, std::greater<>(), [&](int l) { return mixedOf[at(l)]; });
+    std::ranges::stable_sort(order, std::greater<>(), [&](int l) { return mixedOf[l]; });
     for (const int l : order)
-      if (mixedOf[at(l)] > little * gap_ * size) piece.symbols.push_back(l);
+      if (mixedOf[l] > little * gap_ * size) piece.symbols.push_back(l);
     if (isKnown && all_.size() == 1 && masses_.isPlain()) return;
     for (const int l : cells_.symbolsOf(*piece.cell))
       if (std::ranges::find(piece.symbols, l) == piece.symbols.end()) piece.symbols.push_back(l);

@@ -4,11 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scalars/index.hpp"
-
 namespace gamut {
-
-using detail::at;
 
 NominalBoxes::NominalBoxes(const FlowModels& models, Cells& cells, const std::vector<CellQuantity>& quantities)
     : models_(models), cells_(cells), quantities_(quantities), root_(cells.whole()) {
@@ -21,13 +17,13 @@ FlowPart NominalBoxes::partOf(const std::vector<Interval>& values) const {
   constexpr double unit = 0x1p-24;
   FlowPart part = root_->part();
   for (std::size_t q = 0; q < values.size(); ++q) {
-    const FlowSymbol& of = models_.components[at(quantities_[q].component)];
+    const FlowSymbol& of = models_.components[quantities_[q].component];
     if (of.symbol < 0) continue;
     const Interval xi = (values[q] - Interval(of.centre)) / Interval(of.half);
     const double lower = std::clamp(std::floor(std::max(xi.lower(), -2.0) / unit) * unit, -1.0, 1.0 - unit);
     const double upper = std::clamp(std::ceil(std::min(xi.upper(), 2.0) / unit) * unit, lower + unit, 1.0);
-    part.centre[at(of.symbol)] = 0.5 * (lower + upper);
-    part.half[at(of.symbol)] = 0.5 * (upper - lower);
+    part.centre[of.symbol] = 0.5 * (lower + upper);
+    part.half[of.symbol] = 0.5 * (upper - lower);
   }
   return part;
 }
@@ -55,15 +51,15 @@ std::optional<std::vector<double>> NominalBoxes::violationNear(const std::vector
                                                                const std::vector<Interval>& values) {
   std::vector<double> found, place(xi.size(), 0.0);
   for (std::size_t q = 0; q < values.size(); ++q) {
-    const FlowSymbol& of = models_.components[at(quantities_[q].component)];
+    const FlowSymbol& of = models_.components[quantities_[q].component];
     const Interval inside = intersection(quantities_[q].uncertain->inside(), values[q]);
     if (isEmpty(inside)) return std::nullopt;
     if (of.symbol < 0) {
       found.push_back(midpoint(inside));
       continue;
     }
-    found.push_back(std::clamp(of.centre + of.half * xi[at(of.symbol)], inside.lower(), inside.upper()));
-    place[at(of.symbol)] = std::clamp((found.back() - of.centre) / of.half, -1.0, 1.0);
+    found.push_back(std::clamp(of.centre + of.half * xi[of.symbol], inside.lower(), inside.upper()));
+    place[of.symbol] = std::clamp((found.back() - of.centre) / of.half, -1.0, 1.0);
   }
   if (cells_.verdictAt(place) != Cell::Verdict::violated) return std::nullopt;
   return found;

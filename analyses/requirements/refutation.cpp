@@ -25,7 +25,7 @@ bool addDoubtful(const ThinMargins& thin, const CellQuestion& question, std::vec
   for (std::size_t row = question.from + 1; row <= question.until && row < thin.over.size(); ++row) {
     double least = std::numeric_limits<double>::infinity(), greatest = least;
     for (const int margin : question.margins) {
-      const Interval& over = thin.over[row][static_cast<std::size_t>(margin)];
+      const Interval& over = thin.over[row][margin];
       least = std::min(least, over.lower());
       greatest = std::min(greatest, over.upper());
     }
@@ -53,7 +53,7 @@ Refutation refutationOf(const ThinMargins& thin, const CellQuestion& question, c
     for (std::size_t k = 0; k < question.margins.size(); ++k) {
       Interval bound = Interval::empty();
       for (const auto& snapshot : thin.models->at[row])
-        bound = hull(bound, snapshot->outputs[static_cast<std::size_t>(question.margins[k])].bound);
+        bound = hull(bound, snapshot->outputs[question.margins[k]].bound);
       if (question.isStrict[k] != 0 ? !(bound.upper() <= 0) : !(bound.upper() < 0)) continue;
       const bool isFurther =
           found.margin && (isAlways ? bound.upper() >= found.margin->upper() : bound.upper() <= found.margin->upper());

@@ -16,11 +16,8 @@
 #include "analyses/requirements/nominal_boxes.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
-#include "scalars/index.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -65,11 +62,11 @@ class Examiner {
  private:
   static CellQuestion withBesides(const FlowModels& models, CellQuestion question,
                                   const std::vector<CellQuantity>& quantities) {
-    std::vector<char> isOwned(at(models.symbols), 0);
+    std::vector<char> isOwned(models.symbols, 0);
     for (const CellQuantity& quantity : quantities)
-      if (const int symbol = models.components[at(quantity.component)].symbol; symbol >= 0) isOwned[at(symbol)] = 1;
+      if (const int symbol = models.components[quantity.component].symbol; symbol >= 0) isOwned[symbol] = 1;
     for (int l = 0; l < models.symbols; ++l)
-      if (isOwned[at(l)] == 0) question.besides.push_back(l);
+      if (isOwned[l] == 0) question.besides.push_back(l);
     // At one moment both ask for the same.
     if (question.from == question.until) question.when = CellQuestion::When::always;
     return question;
@@ -121,10 +118,10 @@ class Examiner {
 
   /// The values of a quantity in a cell.
   Interval valuesOf(std::size_t quantity, const Cell& cell) const {
-    const FlowSymbol& of = models_.components[at(quantities_[quantity].component)];
+    const FlowSymbol& of = models_.components[quantities_[quantity].component];
     const Interval& range = quantities_[quantity].uncertain->range;
     if (of.symbol < 0) return range;
-    const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
+    const double centre = cell.part().centre[of.symbol], half = cell.part().half[of.symbol];
     return intersection(hull(valueAt(of, centre - half), valueAt(of, centre + half)), range);
   }
 
@@ -137,9 +134,9 @@ class Examiner {
     if (!isPlain_) return volumeOf(cell);
     Interval mass(1.0);
     for (std::size_t q = 0; q < quantities_.size(); ++q) {
-      const FlowSymbol& of = models_.components[at(quantities_[q].component)];
+      const FlowSymbol& of = models_.components[quantities_[q].component];
       if (of.symbol < 0) continue;
-      const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
+      const double centre = cell.part().centre[of.symbol], half = cell.part().half[of.symbol];
       mass = mass * intersection(belowOf(q, centre + half) - belowOf(q, centre - half), Interval(0.0, 1.0));
     }
     return mass;
@@ -151,7 +148,7 @@ class Examiner {
     if (xi == 1) return Interval(1.0);
     const auto [found, isNew] = below_[quantity].try_emplace(xi);
     if (!isNew) return found->second;
-    const FlowSymbol& of = models_.components[at(quantities_[quantity].component)];
+    const FlowSymbol& of = models_.components[quantities_[quantity].component];
     return found->second = quantities_[quantity].uncertain->distribution.enclosedBelow(
                Interval(of.centre) + Interval(of.half) * Interval(xi));
   }
@@ -211,10 +208,10 @@ class Examiner {
 
   /// Values of a quantity that are certainly in the cell, and certainly meant.
   Interval insideOf(std::size_t quantity, const Cell& cell) const {
-    const FlowSymbol& of = models_.components[at(quantities_[quantity].component)];
+    const FlowSymbol& of = models_.components[quantities_[quantity].component];
     const Interval meant = quantities_[quantity].uncertain->inside();
     if (of.symbol < 0) return meant;
-    const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
+    const double centre = cell.part().centre[of.symbol], half = cell.part().half[of.symbol];
     const double lower = valueAt(of, centre - half).upper(), upper = valueAt(of, centre + half).lower();
     return lower <= upper ? intersection(Interval(lower, upper), meant) : Interval::empty();
   }
@@ -259,12 +256,12 @@ class Examiner {
       decided.met = decided.metVolume, decided.violated = decided.violatedVolume;
       return decided;
     }
-    std::vector<double> bend(at(models_.symbols), 0.0);
+    std::vector<double> bend(models_.symbols, 0.0);
     for (std::size_t q = 0; q < quantities_.size(); ++q) {
-      const FlowSymbol& of = models_.components[at(quantities_[q].component)];
+      const FlowSymbol& of = models_.components[quantities_[q].component];
       if (of.symbol < 0) continue;
       const Distribution& distribution = quantities_[q].uncertain->distribution;
-      const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
+      const double centre = cell.part().centre[of.symbol], half = cell.part().half[of.symbol];
       if (!distribution.isMonotone(valuesOf(q, cell))) return decided;
       const Interval low = belowOf(q, centre - half), high = belowOf(q, centre + half);
       const Interval middle = 2.0 * (belowOf(q, centre) - low) / (high - low) - Interval(1.0);
@@ -276,7 +273,7 @@ class Examiner {
       const double beyond = std::max({subUp(range.lower(), ends.lower()), subUp(ends.upper(), range.upper()), 0.0});
       const Interval s = Interval(beyond) / (Interval(of.half) * Interval(half));
       if (!(s.upper() < 0.5)) return decided;
-      bend[at(of.symbol)] = std::min(2.0, (2.0 * (abs(middle) + s) / (Interval(1.0) - s) + s).upper());
+      bend[of.symbol] = std::min(2.0, (2.0 * (abs(middle) + s) / (Interval(1.0) - s) + s).upper());
     }
     const auto bendOf = [&](const std::vector<double>& slope) {
       Interval sum(0.0);
@@ -323,7 +320,7 @@ class Examiner {
     std::vector<Uncertain> all;
     std::vector<const Uncertain*> uncertain;
     for (const CellQuantity& quantity : quantities_) {
-      symbols.push_back(models_.components[at(quantity.component)]);
+      symbols.push_back(models_.components[quantity.component]);
       all.push_back(*quantity.uncertain);
       all.back().distribution = of(all.back());
     }
@@ -475,18 +472,18 @@ class Examiner {
   /// The degree of values that violate it, on the way from the nominal ones through the middle of a cell; 0 if none do.
   double degreeBeyond(const Cell& cell) {
     for (const double way : {1.0, 1.003, 1.01, 1.03, 1.1, 1.3, 2.0}) {
-      std::vector<double> xi(at(models_.symbols), 0.0);
+      std::vector<double> xi(models_.symbols, 0.0);
       double degree = 1;
       for (std::size_t q = 0; q < quantities_.size(); ++q) {
-        const FlowSymbol& of = models_.components[at(quantities_[q].component)];
+        const FlowSymbol& of = models_.components[quantities_[q].component];
         const Uncertain& u = *quantities_[q].uncertain;
         if (of.symbol < 0) continue;
         const double wanted = u.nominal + way * (midpoint(valuesOf(q, cell)) - u.nominal);
         const Interval inside = u.inside();
         if (isEmpty(inside)) return 0;
-        xi[at(of.symbol)] =
+        xi[of.symbol] =
             std::clamp((std::clamp(wanted, inside.lower(), inside.upper()) - of.centre) / of.half, -1.0, 1.0);
-        const Interval value = Interval(of.centre) + Interval(of.half) * Interval(xi[at(of.symbol)]);
+        const Interval value = Interval(of.centre) + Interval(of.half) * Interval(xi[of.symbol]);
         if (!isSubset(value, u.range)) return 0;
         degree = std::min({degree, u.membership(value.lower()), u.membership(value.upper())});
       }
@@ -546,7 +543,7 @@ class Examiner {
   double degreeOf(const std::vector<double>& values) const {
     double degree = 1;
     for (std::size_t q = 0; q < quantities_.size(); ++q)
-      if (models_.components[at(quantities_[q].component)].symbol >= 0)
+      if (models_.components[quantities_[q].component].symbol >= 0)
         degree = std::min(degree, quantities_[q].uncertain->membership(values[q]));
     return degree;
   }

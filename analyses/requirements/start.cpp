@@ -8,12 +8,9 @@
 #include <optional>
 
 #include "scalars/evaluation/series.hpp"
-#include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -31,9 +28,9 @@ class Start {
   /// to the edge of where it is smooth. The box's parameters are those of all that follows.
   std::optional<std::vector<std::vector<Interval>>> coefficients(const Interval& time, const Box& box) {
     if (!solve(time, box)) return std::nullopt;
-    std::vector<std::vector<Interval>> found(at(outputs_));
+    std::vector<std::vector<Interval>> found(outputs_);
     for (int o = 0; o < outputs_; ++o)
-      for (int i = 0; i <= highest; ++i) found[at(o)].push_back(series_.at(program_.outputNodes()[at(n_ + o)], i));
+      for (int i = 0; i <= highest; ++i) found[o].push_back(series_.at(program_.outputNodes()[n_ + o], i));
     return found;
   }
 
@@ -47,16 +44,16 @@ class Start {
       Box image = start;
       bool isInside = true;
       for (int i = 0; i < n_; ++i) {
-        image[at(i)] = start[at(i)] + time * series_.at(program_.outputNodes()[at(i)], 0);
-        if (!isBounded(image[at(i)])) return std::nullopt;
-        isInside = isInside && isSubset(image[at(i)], box[at(i)]);
+        image[i] = start[i] + time * series_.at(program_.outputNodes()[i], 0);
+        if (!isBounded(image[i])) return std::nullopt;
+        isInside = isInside && isSubset(image[i], box[i]);
       }
       if (isInside) return image;
       for (int i = 0; i < n_; ++i) {
-        const Interval all = hull(box[at(i)], image[at(i)]);
+        const Interval all = hull(box[i], image[i]);
         constexpr double tiny = std::numeric_limits<double>::min();
         const Interval more = all - all;  // NOLINT(misc-redundant-expression): both ends of its width
-        box[at(i)] = all + 0.1 * more + Interval(-tiny, tiny);
+        box[i] = all + 0.1 * more + Interval(-tiny, tiny);
       }
     }
     return std::nullopt;
@@ -67,9 +64,9 @@ class Start {
     Recorder recorder(f.states(), f.parameters());
     std::vector<int> nodes;
     const std::vector<int> motion = recorder.append(f);
-    for (const int node : f.outputNodes()) nodes.push_back(motion[at(node)]);
+    for (const int node : f.outputNodes()) nodes.push_back(motion[node]);
     const std::vector<int> margins = recorder.append(g);
-    for (const int output : outputs) nodes.push_back(margins[at(g.outputNodes()[at(output)])]);
+    for (const int output : outputs) nodes.push_back(margins[g.outputNodes()[output]]);
     return recorder.finish(nodes);
   }
 
@@ -97,7 +94,7 @@ Box boxOf(const FlowModels& models, const FlowPart& part, Box box) {
   for (std::size_t i = 0; i < box.size(); ++i) {
     const FlowSymbol& of = models.components[i];
     if (of.symbol < 0) continue;
-    const Interval xi = Interval(part.centre[at(of.symbol)]) + Interval(-1.0, 1.0) * part.half[at(of.symbol)];
+    const Interval xi = Interval(part.centre[of.symbol]) + Interval(-1.0, 1.0) * part.half[of.symbol];
     const Interval own = intersection(Interval(of.centre) + Interval(of.half) * xi, box[i]);
     if (!isEmpty(own)) box[i] = own;
   }
@@ -107,12 +104,12 @@ Box boxOf(const FlowModels& models, const FlowPart& part, Box box) {
 /// Whether the output is not below zero; then its bound says so.
 bool narrow(Interval& bound, const std::vector<Interval>& atStart, const std::vector<Interval>& throughout) {
   for (int k = 0; k <= highest; ++k) {
-    if (throughout[at(k)].lower() >= 0) {
+    if (throughout[k].lower() >= 0) {
       const Interval both = intersection(bound, Interval(0.0, std::numeric_limits<double>::infinity()));
       if (!isEmpty(both)) bound = both;
       return true;
     }
-    if (!(atStart[at(k)].lower() >= 0)) return false;
+    if (!(atStart[k].lower() >= 0)) return false;
   }
   return false;
 }

@@ -13,8 +13,6 @@
 
 namespace gamut {
 
-using detail::at;
-
 namespace {
 
 Recorded course(const VaryingQuantity& of, const Recorded& drawn, const Recorded& t, double slowest, double fastest) {
@@ -53,12 +51,12 @@ Program withCourses(const Program& program, const std::vector<VaryingQuantity>& 
   std::vector<int> parameters;
   for (int i = 0; i < program.parameters(); ++i) parameters.push_back(recorder.parameter(i));
   for (const VaryingQuantity& of : varying)
-    parameters[at(of.parameter)] =
+    parameters[of.parameter] =
         course(of, Recorded::node(recorder.parameter(of.parameter)), Recorded::node(recorder.time()), slowest, fastest)
             .node();
   const std::vector<int> here = recorder.append(program, parameters);
   std::vector<int> outputs;
-  for (const int output : program.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : program.outputNodes()) outputs.push_back(here[output]);
   return recorder.finish(outputs);
 }
 
@@ -79,11 +77,11 @@ Program withSwitching(const Program& program, const std::vector<std::pair<int, S
       const Recorded behind = 0.5 + 0.5 * sign(t - course.from[i]);
       value = (1.0 - behind) * value + behind * course.values[i];
     }
-    parameters[at(parameter)] = value.node();
+    parameters[parameter] = value.node();
   }
   const std::vector<int> here = recorder.append(program, parameters);
   std::vector<int> outputs;
-  for (const int output : program.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : program.outputNodes()) outputs.push_back(here[output]);
   return recorder.finish(outputs);
 }
 

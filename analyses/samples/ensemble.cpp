@@ -298,7 +298,7 @@ std::size_t levelsHolding(const UncertainMotion& system, const std::vector<Box>&
 
 std::vector<double> UncertainMotion::start(std::span<const double> values) const {
   std::vector<double> result = nominal;
-  for (std::size_t j = 0; j < values.size(); ++j) result[static_cast<std::size_t>(slot[j])] = values[j];
+  for (std::size_t j = 0; j < values.size(); ++j) result[slot[j]] = values[j];
   return result;
 }
 
@@ -362,7 +362,7 @@ void UncertainMotion::check() const {
     uncertain[j].check();
     if (slot[j] < 0 || static_cast<std::size_t>(slot[j]) >= nominal.size())
       throw std::invalid_argument("uncertain quantity '" + uncertain[j].name + "' has no place in the motion");
-    if (taken[static_cast<std::size_t>(slot[j])]++ != 0)
+    if (taken[slot[j]]++ != 0)
       throw std::invalid_argument("uncertain quantity '" + uncertain[j].name + "' is stated twice");
   }
 }

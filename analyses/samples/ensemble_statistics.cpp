@@ -33,7 +33,7 @@ double sumOver(const double* row, const F& f) {
   constexpr int lanes = 8;
   std::array<double, lanes> sums{};
   for (int i = 0; i < packWidth; i += lanes)
-    for (int k = 0; k < lanes; ++k) sums[static_cast<std::size_t>(k)] += f(row[i + k]);
+    for (int k = 0; k < lanes; ++k) sums[k] += f(row[i + k]);
   return ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]));
 }
 
@@ -321,7 +321,7 @@ void EnsembleStatistics::boundQuantiles(std::size_t index, Statistics& result) c
   for (std::size_t q = 0; q < result.probabilities.size(); ++q) {
     const double part = (result.quantiles[q].data[index] - cell.lower) / (cell.upper - cell.lower) * parts;
     if (!(part >= 0 && part <= parts)) continue;
-    const double error = errors[static_cast<std::size_t>(std::min(part, parts - 1))];
+    const double error = errors[std::min(part, parts - 1)];
     const double least = result.probabilities[q] - error, greatest = result.probabilities[q] + error;
     if (!(least >= 0 && greatest <= 1)) continue;
     double unused = 0;

@@ -10,6 +10,7 @@
 
 #include "scalars/algebra/linear_system.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/index.hpp"
 #include "scalars/program/sides.hpp"
 
 namespace gamut {

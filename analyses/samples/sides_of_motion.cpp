@@ -4,15 +4,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scalars/index.hpp"
 #include "scalars/program/angles.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
 namespace {
-
-using detail::at;
 
 /// The function of a jump on its side that falls below zero where it leaves.
 int watchedOf(Recorder& recorder, Side side, int u, int s) {
@@ -28,11 +25,11 @@ SidedPrograms programsOf(const Program& f, const Program& sided, Program outputs
   const auto n = sided.outputNodes().begin() + sided.states();
   std::vector<int> rates(sided.outputNodes().begin(), n);
   for (const RestingJumps& pair : resting)  // exactly
-    rates[at(pair.states.position)] = rates[at(pair.states.speed)] = recorder.constant(0.0);
+    rates[pair.states.position] = rates[pair.states.speed] = recorder.constant(0.0);
   const auto count = static_cast<std::ptrdiff_t>(sides.size());
   const std::vector<int> arguments(n, n + count), signs(n + count, n + 2 * count);
   std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
-  for (int i = 0; i < sided.states(); ++i) seeds.emplace_back(recorder.state(i), rates[at(i)]);
+  for (int i = 0; i < sided.states(); ++i) seeds.emplace_back(recorder.state(i), rates[i]);
   std::vector<int> watched, judged = arguments;
   for (std::size_t k = 0; k < sides.size(); ++k)
     watched.push_back(watchedOf(recorder, sides[k], arguments[k], signs[k]));
@@ -44,7 +41,7 @@ SidedPrograms programsOf(const Program& f, const Program& sided, Program outputs
     const Program there = onSides(f, pressing);
     const std::vector<int> here = recorder.append(there);
     watched[pair.position] = recorder.constant(1.0);
-    watched[pair.speed] = recorder.neg(here[at(there.outputNodes()[at(pair.states.speed)])]);
+    watched[pair.speed] = recorder.neg(here[there.outputNodes()[pair.states.speed]]);
   }
   const std::vector<int> changes = tangents(recorder, arguments, seeds);
   judged.insert(judged.end(), signs.begin(), signs.end());

@@ -20,6 +20,7 @@
 
 #include "analyses/samples/influence_of_signs.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/index.hpp"
 #include "scalars/program/linear_form.hpp"
 #include "scalars/program/resting.hpp"
 #include "scalars/program/sides.hpp"
@@ -71,7 +72,7 @@ class SidesOfMotion {
         off_(off),
         count_(jumpsOf(f_).size()) {
     if (count_ > 0) influence_.emplace(f_);
-    for (const int jump : jumpsOf(f_)) forms_.push_back(linearFormOf(f_, f_.nodes()[detail::at(jump)].a));
+    for (const int jump : jumpsOf(f_)) forms_.push_back(linearFormOf(f_, f_.nodes()[jump].a));
     pairs_ = restingJumps(rests, forms_);
   }
 
@@ -100,13 +101,13 @@ class SidesOfMotion {
     std::ranges::fill(isTurning_, char{0});
     for (const auto& [which, state] : statesThatFollow(forms)) {
       const LinearForm& form = *forms[which];
-      const double own = form.states[detail::at(state)];
+      const double own = form.states[state];
       Real others = constant<Real>(form.constant) / Real(own);
       for (std::size_t i = 0; i < parameters_.size(); ++i)
         if (form.parameters[i] != 0) others = others + parameters_[i] * Real(form.parameters[i]) / Real(own);
       for (std::size_t i = 0; i < x.size(); ++i)
         if (form.states[i] != 0 && i != detail::at(state)) others = others + Real(form.states[i] / own) * x[i];
-      x[detail::at(state)] = -others;
+      x[state] = -others;
     }
   }
 

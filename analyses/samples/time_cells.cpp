@@ -33,8 +33,8 @@ std::vector<NodeInputs> dependences(const Program& program) {
   for (const Node& n : program.nodes()) {
     NodeInputs own{n.op == Op::time, n.op == Op::state || n.op == Op::solution};
     const auto take = [&](int operand) {
-      own.time = own.time || result[at(operand)].time;
-      own.state = own.state || result[at(operand)].state;
+      own.time = own.time || result[operand].time;
+      own.state = own.state || result[operand].state;
     };
     if (operandsOf(n.op) > 0) take(n.a);
     if (operandsOf(n.op) > 1) take(n.b);
@@ -50,7 +50,7 @@ std::vector<int> functionsOfTime(const Program& program) {
   for (std::size_t i = 0; i < of.size(); ++i) {
     const Node& n = program.nodes()[i];
     const bool isLinear = n.op == Op::add || n.op == Op::sub || n.op == Op::neg || n.op == Op::time ||
-                          (n.op == Op::mul && !(of[at(n.a)].time && of[at(n.b)].time));
+                          (n.op == Op::mul && !(of[n.a].time && of[n.b].time));
     if (of[i].time && !of[i].state && !isLinear) functions.push_back(static_cast<int>(i));
   }
   return functions;
@@ -66,7 +66,7 @@ Program withDerivatives(const Program& f) {
 
 bool usesParameters(const Program& program) {
   return std::ranges::any_of(program.nodes(), [&](const Node& n) {
-    const auto isParameter = [&](int operand) { return program.nodes()[at(operand)].op == Op::parameter; };
+    const auto isParameter = [&](int operand) { return program.nodes()[operand].op == Op::parameter; };
     return (operandsOf(n.op) > 0 && isParameter(n.a)) || (operandsOf(n.op) > 1 && isParameter(n.b));
   });
 }

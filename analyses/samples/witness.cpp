@@ -10,6 +10,7 @@
 #include "analyses/samples/time_cells.hpp"
 #include "analyses/work.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/index.hpp"
 #include "scalars/program/angles.hpp"
 
 namespace gamut {

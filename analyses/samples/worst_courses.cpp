@@ -12,6 +12,7 @@
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/index.hpp"
 #include "scalars/program/sides.hpp"
 #include "scalars/recorded.hpp"
 

@@ -7,12 +7,9 @@
 #include <map>
 
 #include "analyses/flow/series/polynomial_range.hpp"
-#include "scalars/index.hpp"
 
 namespace gamut {
 namespace {
-
-using detail::at;
 
 class Ranges {
  public:
@@ -24,9 +21,9 @@ class Ranges {
     for (const SurrogatePart& each : parts_) {
       Box box(each.part.centre.size(), Interval(-1.0, 1.0));
       if (symbol >= 0) {
-        const Interval own = (xi - Interval(each.part.centre[at(symbol)])) / Interval(each.part.half[at(symbol)]);
-        box[at(symbol)] = intersection(own, Interval(-1.0, 1.0));
-        if (isEmpty(box[at(symbol)])) continue;
+        const Interval own = (xi - Interval(each.part.centre[symbol])) / Interval(each.part.half[symbol]);
+        box[symbol] = intersection(own, Interval(-1.0, 1.0));
+        if (isEmpty(box[symbol])) continue;
       }
       range = hull(range, of(each, box));
     }
@@ -39,7 +36,7 @@ class Ranges {
     if (model.c.empty()) return model.bound;
     const auto [place, isNew] = evaluators_.try_emplace(part.monomials.get(), part.monomials);
     std::vector<double> c = model.c;
-    c.resize(at(part.monomials->count()), 0.0);
+    c.resize(part.monomials->count(), 0.0);
     const Interval range = place->second(c.data(), box, 1e-3) + Interval(-model.radius, model.radius);
     return intersection(range, model.bound);
   }

@@ -41,7 +41,7 @@ class Projection {
  public:
   Projection(const FlowModels& models, const std::vector<int>& components) : models_(models) {
     for (const int component : components) {
-      quantities_.push_back(models.components[at(component)]);
+      quantities_.push_back(models.components[component]);
       if (const int symbol = quantities_.back().symbol; symbol >= 0) kept_.push_back(at(symbol));
     }
     std::ranges::sort(kept_);  // so that monomials are enumerated as before
@@ -125,7 +125,7 @@ class Tiling {
   /// None if it is cancelled on the way.
   std::optional<std::vector<SurrogatePart>> tiles(int symbols, const std::atomic<bool>* cancelled) {
     const std::size_t most = 1024 + 16 * parts_.size();
-    Cell whole{{std::vector<double>(at(symbols), 0.0), std::vector<double>(at(symbols), 1.0)}, {}};
+    Cell whole{{std::vector<double>(symbols, 0.0), std::vector<double>(symbols, 1.0)}, {}};
     for (std::size_t i = 0; i < parts_.size(); ++i) whole.near.push_back(i);
     for (std::deque<Cell> cells{std::move(whole)}; !cells.empty(); cells.pop_front()) {
       if (cancelled != nullptr && *cancelled) return std::nullopt;

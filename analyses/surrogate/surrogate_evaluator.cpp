@@ -45,7 +45,7 @@ PackedSurrogate pack(const Surrogate& surrogate, const std::vector<std::size_t>&
   }
   const auto own = [&](const std::vector<double>& of, double otherwise, std::vector<double>& to) {
     for (const FlowSymbol& quantity : surrogate.quantities)
-      to.push_back(quantity.symbol < 0 ? otherwise : of[static_cast<std::size_t>(quantity.symbol)]);
+      to.push_back(quantity.symbol < 0 ? otherwise : of[quantity.symbol]);
   };
   std::map<const Monomials*, std::size_t> firstTerm;
   for (std::size_t r = 0; r < surrogate.rows.size(); ++r) {
@@ -280,7 +280,7 @@ class SurrogateEvaluator::Block {
       for (Eigen::Index i = 0; i < m; ++i)
         for (std::size_t q = 0; q < n; ++q)
           eta(i, static_cast<Eigen::Index>(q)) =
-              std::clamp((xi_[own[static_cast<std::size_t>(i)] * n + q] - part.centre[q]) / part.half[q], -1.0, 1.0);
+              std::clamp((xi_[own[i] * n + q] - part.centre[q]) / part.half[q], -1.0, 1.0);
       monomials_.resize(m, part.c.cols());
       monomials_.col(0).setOnes();
       for (std::size_t t = 0; t < part.steps.size(); ++t)
@@ -289,7 +289,7 @@ class SurrogateEvaluator::Block {
                 .cwiseProduct(eta.col(static_cast<Eigen::Index>(part.steps[t].quantity)));
       results_.noalias() = part.c * monomials_.transpose();
       for (Eigen::Index i = 0; i < m; ++i) {
-        const std::size_t at = own[static_cast<std::size_t>(i)] * stride;
+        const std::size_t at = own[i] * stride;
         std::copy_n(results_.col(i).data(), cells, outputs + at);
         if (errors != nullptr) std::ranges::copy(part.error, errors + at);
       }

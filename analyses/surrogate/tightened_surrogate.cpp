@@ -33,7 +33,7 @@ bool TightenedSurrogate::tighten(double work) {
 const std::vector<SurrogatePart>* TightenedSurrogate::partsAt(std::size_t row) const {
   const auto place = std::ranges::lower_bound(surrogate_.rows, row);
   if (place == surrogate_.rows.end() || *place != row) return nullptr;
-  return &surrogate_.at[static_cast<std::size_t>(place - surrogate_.rows.begin())];
+  return &surrogate_.at[place - surrogate_.rows.begin()];
 }
 
 std::size_t TightenedSurrogate::nearestRow(std::size_t row) const {

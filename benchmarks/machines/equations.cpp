@@ -60,17 +60,17 @@ Case chain(int masses, int percent, double cubic) {
     using Scalar = std::decay_t<decltype(x[0] + x[0])>;
     const auto force = [&](int spring) {  // with which spring `spring` pulls the mass before it
       const auto difference = [&](int first) {
-        const auto at = [&](int mass) { return x[static_cast<std::size_t>(first + mass)]; };
+        const auto at = [&](int mass) { return x[first + mass]; };
         if (spring == 0) return Scalar(at(0));
         return spring == masses ? Scalar(-at(masses - 1)) : Scalar(at(spring) - at(spring - 1));
       };
-      const Scalar stretch = difference(0), elastic = p[static_cast<std::size_t>(spring)] * stretch;
+      const Scalar stretch = difference(0), elastic = p[spring] * stretch;
       const Scalar damped = 0.5 * difference(masses);
       return cubic > 0 ? Scalar(elastic * (1 + 100 * cubic * (stretch * stretch)) + damped) : Scalar(elastic + damped);
     };
     for (int i = 0; i < masses; ++i) {
-      dx[static_cast<std::size_t>(i)] = x[static_cast<std::size_t>(masses + i)];
-      dx[static_cast<std::size_t>(masses + i)] = force(i + 1) - force(i);
+      dx[i] = x[masses + i];
+      dx[masses + i] = force(i + 1) - force(i);
     }
   };
   const auto states = static_cast<std::size_t>(2 * masses);

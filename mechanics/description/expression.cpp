@@ -28,7 +28,7 @@ Expression& Expression::append(const Expression& other) {
   for (Term term : other.terms_) {
     if (term.operation == Operation::constant) term.index += shift;
     if (term.operation == Operation::name) {
-      const std::string& name = other.names_[static_cast<std::size_t>(term.index)];
+      const std::string& name = other.names_[term.index];
       const auto found = std::ranges::find(names_, name);
       term.index = static_cast<int>(found - names_.begin());
       if (found == names_.end()) names_.push_back(name);
@@ -101,12 +101,12 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
   std::vector<Operand> stack;
   for (const Term& term : terms_) {
     if (term.operation == Operation::constant) {
-      const std::optional<Amount>& exact = constants_[static_cast<std::size_t>(term.index)].exact;
+      const std::optional<Amount>& exact = constants_[term.index].exact;
       stack.push_back({exact ? exact->dimension : Dimension{}, exact && exact->value == 0 && !exact->hasUnit});
       continue;
     }
     if (term.operation == Operation::name) {
-      stack.push_back({dimensionOf(names_[static_cast<std::size_t>(term.index)])});
+      stack.push_back({dimensionOf(names_[term.index])});
       continue;
     }
     const auto [b, isSecondNothing] = stack.back();
@@ -227,12 +227,12 @@ Expression Expression::with(const std::function<const Expression*(const std::str
   Expression result;
   for (const Term& term : terms_) {
     if (term.operation == Operation::name) {
-      const std::string& name = names_[static_cast<std::size_t>(term.index)];
+      const std::string& name = names_[term.index];
       const Expression* other = instead(name);
       result.append(other != nullptr ? *other : named(name));
     } else if (term.operation == Operation::constant) {
       result.terms_.push_back({term.operation, static_cast<int>(result.constants_.size()), term.column});
-      result.constants_.push_back(constants_[static_cast<std::size_t>(term.index)]);
+      result.constants_.push_back(constants_[term.index]);
     } else {
       result.terms_.push_back(term);
     }
@@ -304,7 +304,7 @@ std::optional<Expression::Affine> Expression::affineIn(const Expression& part) c
     const Operation operation = terms_[i].operation;
     Operand whole{i, std::nullopt};
     if (operation == Operation::constant) {
-      whole.form = Affine{zero, constants_[static_cast<std::size_t>(terms_[i].index)].enclosure};
+      whole.form = Affine{zero, constants_[terms_[i].index].enclosure};
     } else if (operation != Operation::name) {
       const auto first = stack.end() - operands(operation);
       whole.begin = first->begin;

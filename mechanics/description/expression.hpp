@@ -159,12 +159,12 @@ S Expression::evaluate(const ValueOf& valueOf, const ConstantOf& constantOf) con
   std::vector<S> values;
   for (const Term& term : terms_) {
     if (term.operation == Operation::constant) {
-      const Constant& number = constants_[static_cast<std::size_t>(term.index)];
+      const Constant& number = constants_[term.index];
       values.push_back(constantOf(number.enclosure, number.exact));
       continue;
     }
     if (term.operation == Operation::name) {
-      values.push_back(valueOf(names_[static_cast<std::size_t>(term.index)]));
+      values.push_back(valueOf(names_[term.index]));
       continue;
     }
     const S y = values.back();

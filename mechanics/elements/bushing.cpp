@@ -95,7 +95,7 @@ void Bushing::assemble(Assembler<S>& a) const {
       typename BushingLoad<S>::Numbers{a.vector(stiffness), a.vector(damping), a.vector(angularStiffness),
                                        a.vector(angularDamping)});
   for (int i = 0; i < 3; ++i) {
-    const std::string component = components[static_cast<std::size_t>(i)];
+    const std::string component = components[i];
     a.measure("force." + component, [&load, i] { return S(load.force()[i]); });
     a.measure("moment." + component, [&load, i] { return S(load.moment()[i]); });
   }

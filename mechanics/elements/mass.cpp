@@ -29,7 +29,7 @@ void Mass::assemble(Assembler<S>& a) const {
   const auto& body = a.template add<MassElement<S>>(a.frame(at), a.number(mass), a.vector(centre),
                                                     a.rotation(rotation).symmetricToParent(a.symmetric(inertia)));
   for (int i = 0; i < 3; ++i) {
-    const std::string component = components[static_cast<std::size_t>(i)];
+    const std::string component = components[i];
     a.measure("position." + component, [&body, i] { return body.position().position[i]; });
     a.measure("velocity." + component, [&body, i] { return body.position().velocity[i]; });
     a.measureSolved("acceleration." + component, [&body, i] { return body.acceleration()[i]; });

@@ -27,7 +27,7 @@ std::vector<Fault> Planar::faults(const RangeOf& /*rangeOf*/) const {
 template <class S>
 void Planar::assemble(Assembler<S>& a) const {
   const std::array<Axis, 3> axes = {axisX, axisY, axisZ};
-  const auto next = [&](int by) { return axes[static_cast<std::size_t>((axis.index() + by) % 3)]; };
+  const auto next = [&](int by) { return axes[(axis.index() + by) % 3]; };
   Frame<S>&first = a.hiddenFrame(), &second = a.hiddenFrame();
   a.template add<PrismaticJoint<S>>(a.frame(from), first, a.variable("displacement1"), next(1));
   a.template add<PrismaticJoint<S>>(first, second, a.variable("displacement2"), next(2));

@@ -240,7 +240,7 @@ void PlaneContact::assemble(Assembler<S>& a) const {
   a.measure("friction_force", [&load] { return load.frictionForce(); });
   a.measure("slip", [&load] { return load.slipSpeed(); });
   for (int i = 0; i < 3; ++i) {
-    const std::string component = components[static_cast<std::size_t>(i)];
+    const std::string component = components[i];
     a.measure("force." + component, [&load, i] { return S(load.force()[i]); });
     a.measure("slip." + component, [&load, i] { return S(load.slip()[i]); });
   }

@@ -36,7 +36,7 @@ void RelativeMotion::assemble(Assembler<S>& a) const {
   const RelativeMotionOf<S> motion(a.frame(from), a.vector(fromPoint), a.frame(to), a.vector(toPoint));
   const auto vector = [&](const std::string& kind, auto of, bool isSolved = false) {
     for (int i = 0; i < 3; ++i) {
-      const std::string key = kind + "." + components[static_cast<std::size_t>(i)];
+      const std::string key = kind + "." + components[i];
       const Signal<S> value = [motion, of, i] { return S(of(motion)[i]); };
       isSolved ? a.measureSolved(key, value) : a.measure(key, value);
     }
@@ -49,7 +49,7 @@ void RelativeMotion::assemble(Assembler<S>& a) const {
   vector("angular_acceleration", std::mem_fn(&Motion::angularAcceleration), true);
   vector("rotation_vector", [](const Motion& seen) { return rotationVector(seen.orientation()); });
   for (int i = 0; i < 3; ++i)
-    a.measure(std::string("orientation.") + rollPitchYawNames[static_cast<std::size_t>(i)],
+    a.measure(std::string("orientation.") + rollPitchYawNames[i],
               [motion, i] { return S(rollPitchYaw(motion.orientation())[i]); });
   a.measure("angle", [motion, along = axis] {
     using std::atan2, std::sqrt;

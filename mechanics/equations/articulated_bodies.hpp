@@ -40,7 +40,7 @@ template <class S>
 int onlyComponent(const Spatial<S>& s) {
   int only = -1;
   for (int i = 0; i < 6; ++i) {
-    const S& component = s[static_cast<std::size_t>(i / 3)][i % 3];
+    const S& component = s[i / 3][i % 3];
     if (isKnownZero(component)) continue;
     if (only >= 0 || !isKnownNonzero(component)) return -1;
     only = i;
@@ -55,7 +55,7 @@ void giveWay(SpatialInertia<S>& m, const Spatial<S>& u, const Spatial<S>& g, int
     for (int j = 0; j < 3; ++j) {
       const auto left = [&](const S& entry, int row, int column) {
         const bool isFreed = row == component || column == component;
-        const auto at = [](const Spatial<S>& x, int k) { return x[static_cast<std::size_t>(k / 3)][k % 3]; };
+        const auto at = [](const Spatial<S>& x, int k) { return x[k / 3][k % 3]; };
         return isFreed ? S(0.0) : S(entry - at(u, row) * at(g, column));
       };
       m.coupling(i, j) = left(m.coupling(i, j), i, 3 + j);
@@ -124,8 +124,7 @@ std::vector<S> articulatedAccelerations(const std::vector<std::reference_wrapper
       to.tau -= u[0] * free;
       to.f -= u[1] * free;
       if (component >= 0)  // s·f = −Q is what is left
-        (component < 3 ? to.tau : to.f)[component % 3] =
-            S(-((*speed)->force / motion[static_cast<std::size_t>(component / 3)][component % 3]));
+        (component < 3 ? to.tau : to.f)[component % 3] = S(-((*speed)->force / motion[component / 3][component % 3]));
     }
     const bool isInmost = transmission->from().origin == nullptr;
     transmission->doForce();

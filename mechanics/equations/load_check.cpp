@@ -39,11 +39,11 @@ void checkMoved(System<Recorded>& system) {
   while (!open.empty()) {
     const int node = open.back();
     open.pop_back();
-    if (std::exchange(isNeeded[static_cast<std::size_t>(node)], 1) == 0)
+    if (std::exchange(isNeeded[node], 1) == 0)
       detail::forEachOperand(recorder.table(), node, [&](int operand) { open.push_back(operand); });
   }
   for (std::size_t j = 0; j < accelerations.size(); ++j)
-    if (isNeeded[static_cast<std::size_t>(accelerations[j].node())] == 0)
+    if (isNeeded[accelerations[j].node()] == 0)
       throw std::domain_error("the variable " + system.speeds()[j].get().name + " moves no mass");
 }
 

@@ -8,6 +8,7 @@
 
 #include "scalars/algebra/linear_reduction.hpp"
 #include "scalars/algebra/linear_system.hpp"
+#include "scalars/index.hpp"
 #include "scalars/program/directions.hpp"
 
 namespace gamut {
@@ -45,7 +46,7 @@ Cuts cutEverywhere(System<Recorded>& system) {
 std::vector<Recorded> constantParts(System<Recorded>& system, const Cuts& cuts) {
   std::vector<Recorded> constants;
   std::size_t next = 0;
-  system.pass(std::vector<Recorded>(at(system.degreesOfFreedom())), [&](Recorded& component) {
+  system.pass(std::vector<Recorded>(system.degreesOfFreedom()), [&](Recorded& component) {
     if (cuts.isCut[next++] != 0) constants.push_back(component);
     component = Recorded(0.0);
   });
@@ -63,7 +64,7 @@ LinearReduction::Rows matrixOf(const Cuts& cuts, std::size_t degrees) {
     if (j >= degrees) matrix[j - degrees][column] = 1.0;
     for (const auto& [i, node] : directions.along(cuts.unknowns[j])) {
       const Recorded derivative = Recorded::node(node);
-      Recorded& entry = matrix[at(i)][column];
+      Recorded& entry = matrix[i][column];
       entry = at(i) + degrees == j ? 1.0 - derivative : -derivative;
     }
   }
@@ -85,11 +86,11 @@ std::vector<Recorded> restOf(const LinearReduction::Rows& matrix, const LinearRe
   const std::size_t size = reduction.rows().size();
   requireRoom(size);
   std::vector<std::size_t> place(matrix.size(), size);
-  for (std::size_t k = 0; k < size; ++k) place[at(reduction.columns()[k])] = k;
+  for (std::size_t k = 0; k < size; ++k) place[reduction.columns()[k]] = k;
   std::vector<Recorded> rest(size * size);
   for (std::size_t k = 0; k < size; ++k)
-    for (const auto& [j, entry] : matrix[at(reduction.rows()[k])])
-      if (place[at(j)] < size) rest[k * size + place[at(j)]] = entry;
+    for (const auto& [j, entry] : matrix[reduction.rows()[k]])
+      if (place[j] < size) rest[k * size + place[j]] = entry;
   return rest;
 }
 
@@ -104,11 +105,11 @@ std::vector<Recorded> sparseAccelerations(System<Recorded>& system) {
   const LinearReduction reduction(matrix);
   reduction.reduce(right);
   std::vector<Recorded> restRight, x(cuts.unknowns.size());
-  for (int i : reduction.rows()) restRight.push_back(right[at(i)]);
+  for (int i : reduction.rows()) restRight.push_back(right[i]);
   std::vector<Recorded> rest = restOf(matrix, reduction);
   if (!restRight.empty())
     LinearSystem<Recorded>(MatrixKind::general, static_cast<int>(restRight.size()), std::move(rest)).solve(restRight);
-  for (std::size_t i = 0; i < restRight.size(); ++i) x[at(reduction.columns()[i])] = restRight[i];
+  for (std::size_t i = 0; i < restRight.size(); ++i) x[reduction.columns()[i]] = restRight[i];
   reduction.complete(right, x);
   x.resize(degrees);
   return x;

@@ -27,8 +27,7 @@ std::size_t nearest(const std::vector<double>& probabilities, double wanted) {
 Band behindProof(const Results& results, std::size_t output, double end) {
   Band band = bandOf(results.stochastic.envelope, output);
   const auto behind = std::ranges::upper_bound(results.time, end) - results.time.begin();
-  for (std::ptrdiff_t i = 0; i + 1 < behind; ++i)
-    band.lower[static_cast<std::size_t>(i)] = band.upper[static_cast<std::size_t>(i)] = std::nan("");
+  for (std::ptrdiff_t i = 0; i + 1 < behind; ++i) band.lower[i] = band.upper[i] = std::nan("");
   return band;
 }
 

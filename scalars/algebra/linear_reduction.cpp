@@ -10,8 +10,6 @@
 namespace gamut {
 namespace {
 
-using detail::at;
-
 constexpr double smallest = 1e-3;  // of the greatest number in its row: a pivot
 
 /// How large a number certainly is; 0 for what is no number.
@@ -30,7 +28,7 @@ class Markowitz {
   explicit Markowitz(LinearReduction::Rows& matrix) : matrix_(matrix), columns_(matrix.size()), best_(matrix.size()) {
     for (std::size_t i = 0; i < matrix.size(); ++i) {
       std::erase_if(matrix[i], [](const auto& entry) { return isKnownZero(entry.second); });
-      for (const auto& [j, entry] : matrix[i]) columns_[at(j)].insert(static_cast<int>(i));
+      for (const auto& [j, entry] : matrix[i]) columns_[j].insert(static_cast<int>(i));
     }
     for (std::size_t i = 0; i < matrix.size(); ++i) look(static_cast<int>(i));
   }
@@ -42,14 +40,14 @@ class Markowitz {
   /// That may fill in the fewest entries, by row and column where several do; null if no entry is fit for one.
   const Pivot* cheapest() const { return pivots_.empty() ? nullptr : &*pivots_.begin(); }
 
-  int inRow(int i) const { return static_cast<int>(matrix_[at(i)].size()); }
-  int inColumn(int j) const { return static_cast<int>(columns_[at(j)].size()); }
-  const std::set<int>& rowsOf(int column) const { return columns_[at(column)]; }
+  int inRow(int i) const { return static_cast<int>(matrix_[i].size()); }
+  int inColumn(int j) const { return static_cast<int>(columns_[j].size()); }
+  const std::set<int>& rowsOf(int column) const { return columns_[column]; }
 
   /// The row and the column are no longer there, for pivots.
   void take(int row, int column) {
-    for (const auto& [j, entry] : matrix_[at(row)]) touch(j), columns_[at(j)].erase(row);
-    for (const int i : columns_[at(column)]) changed_.insert(i);
+    for (const auto& [j, entry] : matrix_[row]) touch(j), columns_[j].erase(row);
+    for (const int i : columns_[column]) changed_.insert(i);
     forget(row);
     changed_.erase(row);
   }
@@ -57,18 +55,18 @@ class Markowitz {
     touch(j);
     changed_.insert(i);
     if (isKnownZero(value)) {
-      matrix_[at(i)].erase(j);
-      columns_[at(j)].erase(i);
+      matrix_[i].erase(j);
+      columns_[j].erase(i);
     } else {
-      matrix_[at(i)][j] = value;
-      columns_[at(j)].insert(i);
+      matrix_[i][j] = value;
+      columns_[j].insert(i);
     }
   }
   /// After all that a step changes.
   void update(int column) {
-    for (const int i : columns_[at(column)]) matrix_[at(i)].erase(column);
-    columns_[at(column)].clear();
-    for (const int j : touched_) changed_.insert(columns_[at(j)].begin(), columns_[at(j)].end());
+    for (const int i : columns_[column]) matrix_[i].erase(column);
+    columns_[column].clear();
+    for (const int j : touched_) changed_.insert(columns_[j].begin(), columns_[j].end());
     for (const int i : changed_) look(i);
     touched_.clear();
     changed_.clear();
@@ -77,20 +75,20 @@ class Markowitz {
  private:
   void touch(int column) { touched_.insert(column); }
   void forget(int i) {
-    if (best_[at(i)]) pivots_.erase(*best_[at(i)]);
-    best_[at(i)].reset();
+    if (best_[i]) pivots_.erase(*best_[i]);
+    best_[i].reset();
   }
   void look(int i) {
     forget(i);
     double greatest = 0;
-    for (const auto& [j, entry] : matrix_[at(i)]) greatest = std::max(greatest, sizeOfNumber(entry));
-    for (const auto& [j, entry] : matrix_[at(i)]) {
+    for (const auto& [j, entry] : matrix_[i]) greatest = std::max(greatest, sizeOfNumber(entry));
+    for (const auto& [j, entry] : matrix_[i]) {
       const double own = sizeOfNumber(entry);
       if (!(own > 0 && own >= smallest * greatest)) continue;
       const Pivot pivot{(inRow(i) - 1) * (inColumn(j) - 1), i, j};
-      if (!best_[at(i)] || pivot < *best_[at(i)]) best_[at(i)] = pivot;
+      if (!best_[i] || pivot < *best_[i]) best_[i] = pivot;
     }
-    if (best_[at(i)]) pivots_.insert(*best_[at(i)]);
+    if (best_[i]) pivots_.insert(*best_[i]);
   }
 
   LinearReduction::Rows& matrix_;
@@ -109,16 +107,16 @@ LinearReduction::LinearReduction(Rows& matrix) {
     const auto [cost, row, column] = *pivot;
     // At most `cost` entries come, those of the pivot's row and column go.
     if (cost > left.inRow(row) + left.inColumn(column) - 1) break;
-    isRowGone[at(row)] = isColumnGone[at(column)] = 1;
-    Step step{row, column, 1.0 / matrix[at(row)].at(column), {}, {}};
-    for (const auto& [j, entry] : matrix[at(row)])
+    isRowGone[row] = isColumnGone[column] = 1;
+    Step step{row, column, 1.0 / matrix[row].at(column), {}, {}};
+    for (const auto& [j, entry] : matrix[row])
       if (j != column) step.upper.push_back({j, entry});
     left.take(row, column);
     for (const int i : left.rowsOf(column)) {
-      const Recorded factor = matrix[at(i)].at(column) * step.inverse;
+      const Recorded factor = matrix[i].at(column) * step.inverse;
       for (const Term& term : step.upper) {
-        const auto old = matrix[at(i)].find(term.index);
-        left.set(i, term.index, (old == matrix[at(i)].end() ? Recorded(0.0) : old->second) - factor * term.value);
+        const auto old = matrix[i].find(term.index);
+        left.set(i, term.index, (old == matrix[i].end() ? Recorded(0.0) : old->second) - factor * term.value);
       }
       step.lower.push_back({i, factor});
     }
@@ -133,15 +131,15 @@ LinearReduction::LinearReduction(Rows& matrix) {
 
 void LinearReduction::reduce(std::span<Recorded> r) const {
   for (const Step& step : steps_)
-    for (const Term& term : step.lower) r[at(term.index)] = r[at(term.index)] - term.value * r[at(step.row)];
+    for (const Term& term : step.lower) r[term.index] = r[term.index] - term.value * r[step.row];
 }
 
 void LinearReduction::complete(std::span<const Recorded> r, std::span<Recorded> x) const {
   for (std::size_t k = steps_.size(); k-- > 0;) {
     const Step& step = steps_[k];
-    Recorded sum = r[at(step.row)];
-    for (const Term& term : step.upper) sum = sum - term.value * x[at(term.index)];
-    x[at(step.column)] = sum * step.inverse;
+    Recorded sum = r[step.row];
+    for (const Term& term : step.upper) sum = sum - term.value * x[term.index];
+    x[step.column] = sum * step.inverse;
   }
 }
 

@@ -49,7 +49,7 @@ class LinearSystem {
   /// `entries` row by row; of a positive definite matrix those on and below the diagonal are read.
   LinearSystem(MatrixKind kind, int size, std::vector<S> entries) {
     detail::requireSquare(size, entries.size());
-    assign(kind, size, [&](int i, int j) -> const S& { return entries[detail::at(i * size + j)]; });
+    assign(kind, size, [&](int i, int j) -> const S& { return entries[i * size + j]; });
   }
 
   /// The systems of another matrix, whose entry in row i and column j is entry(i, j); memory is used again.
@@ -57,7 +57,7 @@ class LinearSystem {
   void assign(MatrixKind kind, int size, Entry entry) {
     kind_ = kind;
     size_ = size;
-    factors_.resize(detail::at(size * size), S(0.0));
+    factors_.resize(size * size, S(0.0));
     if (kind == MatrixKind::positiveDefinite) {
       detail::factoriseLDLt<S>(size, entry, factors());
     } else {
@@ -73,15 +73,15 @@ class LinearSystem {
   void solve(std::span<S> x, bool transposed = false) const {
     detail::requireRightSide(size_, x.size());
     if (kind_ == MatrixKind::positiveDefinite) {
-      const auto component = [x](int i) -> S& { return x[detail::at(i)]; };
+      const auto component = [x](int i) -> S& { return x[i]; };
       detail::solveLDLt<S>(size_, std::as_const(*this).factors(), component, component);
     } else {
       std::vector<S> step(x.begin(), x.end());  // the right-hand side, its residual, the correction
       solveByFactors(x, transposed);
       for (int i = 0; i < size_; ++i)
         for (int j = 0; j < size_; ++j) {
-          S& residual = step[detail::at(i)];
-          residual = residual - entries_[detail::at(transposed ? j * size_ + i : i * size_ + j)] * x[detail::at(j)];
+          S& residual = step[i];
+          residual = residual - entries_[transposed ? j * size_ + i : i * size_ + j] * x[j];
         }
       solveByFactors(step, transposed);
       for (std::size_t i = 0; i < x.size(); ++i) x[i] = x[i] + step[i];
@@ -90,10 +90,10 @@ class LinearSystem {
 
  private:
   auto factors() {
-    return [this](int i, int j) -> S& { return factors_[detail::at(i * size_ + j)]; };
+    return [this](int i, int j) -> S& { return factors_[i * size_ + j]; };
   }
   auto factors() const {
-    return [this](int i, int j) -> const S& { return factors_[detail::at(i * size_ + j)]; };
+    return [this](int i, int j) -> const S& { return factors_[i * size_ + j]; };
   }
 
   /// P M = L U: U with inverse pivots on the diagonal, L below it. Row exchanges: k with pivots_[k], k = 0, 1, …
@@ -101,17 +101,17 @@ class LinearSystem {
     using std::abs;
     const auto m = factors();
     const int n = size_;
-    pivots_.resize(detail::at(n));
+    pivots_.resize(n);
     measureRows();
     for (int k = 0; k < n; ++k) {
       int pivot = k;
       S greatest(-1.0);
       for (int i = k; i < n; ++i)
-        if (const S size = abs(m(i, k)) / rowSizes_[detail::at(i)]; greatest < size) greatest = size, pivot = i;
-      pivots_[detail::at(k)] = pivot;
+        if (const S size = abs(m(i, k)) / rowSizes_[i]; greatest < size) greatest = size, pivot = i;
+      pivots_[k] = pivot;
       if (pivot != k) {
         for (int j = 0; j < n; ++j) std::swap(m(k, j), m(pivot, j));
-        std::swap(rowSizes_[detail::at(k)], rowSizes_[detail::at(pivot)]);
+        std::swap(rowSizes_[k], rowSizes_[pivot]);
       }
       const S& d = m(k, k);
       const S inverse = d < 0.0 || 0.0 < d ? S(1.0 / d) : S(d * std::numeric_limits<double>::quiet_NaN());
@@ -128,28 +128,28 @@ class LinearSystem {
   void measureRows() {
     using std::abs;
     const auto m = factors();
-    rowSizes_.assign(detail::at(size_), S(0.0));
-    columnSizes_.assign(detail::at(size_), S(0.0));
+    rowSizes_.assign(size_, S(0.0));
+    columnSizes_.assign(size_, S(0.0));
     const auto enlarge = [](S& size, const S& candidate) { size = std::max(size, candidate); };  // not by a NaN
     for (int i = 0; i < size_; ++i)
-      for (int j = 0; j < size_; ++j) enlarge(rowSizes_[detail::at(i)], S(abs(m(i, j))));
+      for (int j = 0; j < size_; ++j) enlarge(rowSizes_[i], S(abs(m(i, j))));
     for (int i = 0; i < size_; ++i)
-      for (int j = 0; j < size_; ++j) enlarge(columnSizes_[detail::at(j)], S(abs(m(i, j)) / rowSizes_[detail::at(i)]));
+      for (int j = 0; j < size_; ++j) enlarge(columnSizes_[j], S(abs(m(i, j)) / rowSizes_[i]));
     for (int i = 0; i < size_; ++i) {
-      rowSizes_[detail::at(i)] = S(0.0);
-      for (int j = 0; j < size_; ++j) enlarge(rowSizes_[detail::at(i)], S(abs(m(i, j)) / columnSizes_[detail::at(j)]));
+      rowSizes_[i] = S(0.0);
+      for (int j = 0; j < size_; ++j) enlarge(rowSizes_[i], S(abs(m(i, j)) / columnSizes_[j]));
     }
   }
 
   void solveByFactors(std::span<S> x, bool transposed) const {
     if (transposed) return solveTransposed(x);
     const auto m = factors();
-    for (int i = 0; i < size_; ++i) std::swap(x[detail::at(i)], x[detail::at(pivots_[detail::at(i)])]);
+    for (int i = 0; i < size_; ++i) std::swap(x[i], x[pivots_[i]]);
     for (int i = 0; i < size_; ++i)
-      for (int k = 0; k < i; ++k) x[detail::at(i)] = x[detail::at(i)] - m(i, k) * x[detail::at(k)];
+      for (int k = 0; k < i; ++k) x[i] = x[i] - m(i, k) * x[k];
     for (int i = size_ - 1; i >= 0; --i) {
-      for (int k = i + 1; k < size_; ++k) x[detail::at(i)] = x[detail::at(i)] - m(i, k) * x[detail::at(k)];
-      x[detail::at(i)] = x[detail::at(i)] * m(i, i);
+      for (int k = i + 1; k < size_; ++k) x[i] = x[i] - m(i, k) * x[k];
+      x[i] = x[i] * m(i, i);
     }
   }
 
@@ -157,12 +157,12 @@ class LinearSystem {
   void solveTransposed(std::span<S> x) const {
     const auto m = factors();
     for (int i = 0; i < size_; ++i) {
-      for (int k = 0; k < i; ++k) x[detail::at(i)] = x[detail::at(i)] - m(k, i) * x[detail::at(k)];
-      x[detail::at(i)] = x[detail::at(i)] * m(i, i);
+      for (int k = 0; k < i; ++k) x[i] = x[i] - m(k, i) * x[k];
+      x[i] = x[i] * m(i, i);
     }
     for (int i = size_ - 1; i >= 0; --i)
-      for (int k = i + 1; k < size_; ++k) x[detail::at(i)] = x[detail::at(i)] - m(k, i) * x[detail::at(k)];
-    for (int i = size_ - 1; i >= 0; --i) std::swap(x[detail::at(i)], x[detail::at(pivots_[detail::at(i)])]);
+      for (int k = i + 1; k < size_; ++k) x[i] = x[i] - m(k, i) * x[k];
+    for (int i = size_ - 1; i >= 0; --i) std::swap(x[i], x[pivots_[i]]);
   }
 
   MatrixKind kind_ = MatrixKind::general;
@@ -181,18 +181,18 @@ class LinearSystem<Interval> {
   LinearSystem() = default;
   LinearSystem(MatrixKind kind, int size, const std::vector<Interval>& entries) {
     detail::requireSquare(size, entries.size());
-    assign(kind, size, [&](int i, int j) { return entries[detail::at(i * size + j)]; });
+    assign(kind, size, [&](int i, int j) { return entries[i * size + j]; });
   }
 
   template <class Entry>
   void assign(MatrixKind kind, int size, Entry entry) {
     kind_ = kind;
     size_ = size;
-    columns_.resize(detail::at(size * size));
+    columns_.resize(size * size);
     for (int j = 0; j < size; ++j)
       for (int i = 0; i < size; ++i) {
         const bool mirrored = kind == MatrixKind::positiveDefinite && i < j;
-        columns_[detail::at(j * size + i)] = mirrored ? entry(j, i) : entry(i, j);
+        columns_[j * size + i] = mirrored ? entry(j, i) : entry(i, j);
       }
     for (auto& proof : proofs_) proof.reset();
   }
@@ -235,7 +235,7 @@ class SystemOfParts {
   SystemOfParts() = default;
   SystemOfParts(MatrixKind kind, int size, const std::vector<S>& entries) {
     requireSquare(size, entries.size());
-    assign(kind, size, [&](int i, int j) -> const S& { return entries[at(i * size + j)]; });
+    assign(kind, size, [&](int i, int j) -> const S& { return entries[i * size + j]; });
   }
 
   template <class Entry>
@@ -287,7 +287,7 @@ class LinearSystem<Recorded> {
     int matrix = -1;   // in the recorder, of three equations or more
     Recorded inverse;  // of the determinant, of fewer
   };
-  const Recorded& entry(int i, int j) const { return entries_[detail::at(i * size_ + j)]; }
+  const Recorded& entry(int i, int j) const { return entries_[i * size_ + j]; }
   Part part(std::vector<int> rows) const;
 
   MatrixKind kind_;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "scalars/algebra/linear_system.hpp"
+#include "scalars/index.hpp"
 
 namespace gamut {
 namespace {
@@ -20,16 +21,16 @@ LinearSystem<Recorded>::LinearSystem(MatrixKind kind, int size, std::vector<Reco
     for (int i = 0; i < size; ++i)
       for (int j = 0; j < i; ++j) entries_[at(j) * at(size) + at(i)] = entry(i, j);
   // Rows that an entry connects, directly or through others, are one part.
-  std::vector<char> taken(at(size), 0);
+  std::vector<char> taken(size, 0);
   for (int first = 0; first < size; ++first) {
-    if (taken[at(first)] != 0) continue;
+    if (taken[first] != 0) continue;
     std::vector<int> rows{first};
-    taken[at(first)] = 1;
+    taken[first] = 1;
     for (std::size_t next = 0; next < rows.size(); ++next)
       for (int j = 0; j < size; ++j)
-        if (taken[at(j)] == 0 && !(isKnownZero(entry(rows[next], j)) && isKnownZero(entry(j, rows[next])))) {
+        if (taken[j] == 0 && !(isKnownZero(entry(rows[next], j)) && isKnownZero(entry(j, rows[next])))) {
           rows.push_back(j);
-          taken[at(j)] = 1;
+          taken[j] = 1;
         }
     std::sort(rows.begin(), rows.end());
     parts_.push_back(part(std::move(rows)));
@@ -39,7 +40,7 @@ LinearSystem<Recorded>::LinearSystem(MatrixKind kind, int size, std::vector<Reco
 LinearSystem<Recorded>::Part LinearSystem<Recorded>::part(std::vector<int> rows) const {
   Part result;
   const int n = static_cast<int>(rows.size());
-  const auto m = [&](int i, int j) -> const Recorded& { return entry(rows[at(i)], rows[at(j)]); };
+  const auto m = [&](int i, int j) -> const Recorded& { return entry(rows[i], rows[j]); };
   if (n == 1) {
     result.inverse = 1.0 / m(0, 0);
   } else if (n <= writtenOut) {
@@ -60,7 +61,7 @@ LinearSystem<Recorded>::Part LinearSystem<Recorded>::part(std::vector<int> rows)
 void LinearSystem<Recorded>::solve(std::span<Recorded> x, bool transposed) const {
   detail::requireRightSide(size_, x.size());
   for (const Part& part : parts_) {
-    const auto r = [&](std::size_t i) -> Recorded& { return x[at(part.rows[i])]; };
+    const auto r = [&](std::size_t i) -> Recorded& { return x[part.rows[i]]; };
     if (part.matrix >= 0) {
       std::vector<int> rightSide;
       for (std::size_t i = 0; i < part.rows.size(); ++i) rightSide.push_back(r(i).node());

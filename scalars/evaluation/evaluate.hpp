@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/index.hpp"
 #include "scalars/program/program.hpp"
 #include "scalars/recorded.hpp"
 

@@ -26,24 +26,23 @@ class Evaluator {
 
   /// p: one value a parameter. Needed once before the first call if there are parameters.
   void setParameters(std::span<const S> p) {
-    for (const auto& [input, slot] : tape_.constantInputs())
-      slot_[detail::at(slot)] = constant<S>(tape_.constants()[detail::at(input)]);
-    for (const auto& [input, slot] : tape_.parameterInputs()) slot_[detail::at(slot)] = p[detail::at(input)];
+    for (const auto& [input, slot] : tape_.constantInputs()) slot_[slot] = constant<S>(tape_.constants()[input]);
+    for (const auto& [input, slot] : tape_.parameterInputs()) slot_[slot] = p[input];
     run(tape_.invariants());
   }
 
   /// y = f(t, x): x has one value a state, y one an output; y may be x.
   void operator()(const S& t, std::span<const S> x, std::span<S> y) {
-    for (const auto& [input, slot] : tape_.stateInputs()) slot_[detail::at(slot)] = x[detail::at(input)];
-    if (tape_.timeSlot() >= 0) slot_[detail::at(tape_.timeSlot())] = t;
+    for (const auto& [input, slot] : tape_.stateInputs()) slot_[slot] = x[input];
+    if (tape_.timeSlot() >= 0) slot_[tape_.timeSlot()] = t;
     run(tape_.instructions());
     const auto& outputs = tape_.outputSlots();
-    for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = slot_[detail::at(outputs[i])];
+    for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = slot_[outputs[i]];
   }
 
   /// The outputs as a vector.
   std::vector<S> operator()(const S& t, const std::vector<S>& x) {
-    std::vector<S> y(detail::at(tape_.outputs()), S(0.0));
+    std::vector<S> y(tape_.outputs(), S(0.0));
     (*this)(t, std::span<const S>(x), std::span<S>(y));
     return y;
   }
@@ -103,7 +102,7 @@ class Evaluator {
           factorise(detail::at(i.result));
           break;
         case TapeOp::solution:
-          solve(tape_.solutions()[detail::at(i.result)]);
+          solve(tape_.solutions()[i.result]);
           break;
       }
       if (i.stores) slots[i.result] = acc;
@@ -113,14 +112,14 @@ class Evaluator {
   void factorise(std::size_t number) {
     const TapeSystem& system = tape_.systems()[number];
     systems_[number].assign(system.kind, system.size,
-                            [&](int i, int j) -> const S& { return slot_[detail::at(system.entry(i, j))]; });
+                            [&](int i, int j) -> const S& { return slot_[system.entry(i, j)]; });
   }
 
   void solve(const TapeSolution& solution) {
     x_.clear();
-    for (std::int32_t slot : solution.rightSide) x_.push_back(slot_[detail::at(slot)]);
-    systems_[detail::at(solution.system)].solve(x_, solution.transposed);
-    for (std::size_t k = 0; k < x_.size(); ++k) slot_[detail::at(solution.results[k])] = x_[k];
+    for (std::int32_t slot : solution.rightSide) x_.push_back(slot_[slot]);
+    systems_[solution.system].solve(x_, solution.transposed);
+    for (std::size_t k = 0; k < x_.size(); ++k) slot_[solution.results[k]] = x_[k];
   }
 
   Tape tape_;

@@ -243,21 +243,21 @@ GAMUT_AVX512 void runOnAvx512(const PackRun& pack, const std::vector<Instruction
 }  // namespace
 
 void PackRun::factorise(std::int32_t number, int sample, int count) const {
-  const TapeSystem& system = tape.systems()[at(number)];
+  const TapeSystem& system = tape.systems()[number];
   if (system.kind == MatrixKind::positiveDefinite) return runPositiveDefinite(number, nullptr, sample, count);
   for (int i = sample; i < sample + count; ++i)
-    factors[at(number)].samples[at(i)].assign(system.kind, system.size,
-                                              [&](int row, int column) { return slot(system.entry(row, column))[i]; });
+    factors[number].samples[i].assign(system.kind, system.size,
+                                      [&](int row, int column) { return slot(system.entry(row, column))[i]; });
 }
 
 void PackRun::solve(std::int32_t number, int sample, int count) const {
-  const TapeSolution& solution = tape.solutions()[at(number)];
-  if (tape.systems()[at(solution.system)].kind == MatrixKind::positiveDefinite)
+  const TapeSolution& solution = tape.solutions()[number];
+  if (tape.systems()[solution.system].kind == MatrixKind::positiveDefinite)
     return runPositiveDefinite(solution.system, &solution, sample, count);
   std::vector<double> x(solution.results.size());
   for (int i = sample; i < sample + count; ++i) {
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = slot(solution.rightSide[k])[i];
-    factors[at(solution.system)].samples[at(i)].solve(x, solution.transposed);
+    factors[solution.system].samples[i].solve(x, solution.transposed);
     for (std::size_t k = 0; k < x.size(); ++k) slot(solution.results[k])[i] = x[k];
   }
 }
@@ -266,7 +266,7 @@ void PackRun::runPositiveDefinite(int system, const TapeSolution* solution, int 
   const auto execute = unit == VectorUnit::avx512 ? runTaskOnAvx512
                        : unit == VectorUnit::avx2 ? runTaskOnAvx2
                                                   : runTaskOnBaseline;
-  execute({tape.systems()[at(system)], solution, slots, factors[at(system)].rows.front().values}, sample, count);
+  execute({tape.systems()[system], solution, slots, factors[system].rows.front().values}, sample, count);
 }
 
 PackEvaluator::PackEvaluator(const Program& program, VectorUnit unit)
@@ -274,14 +274,14 @@ PackEvaluator::PackEvaluator(const Program& program, VectorUnit unit)
   for (std::size_t k = 0; k < factors_.size(); ++k) {
     const TapeSystem& system = tape_.systems()[k];
     if (system.kind == MatrixKind::positiveDefinite)
-      factors_[k].rows.resize(at(triangular(system.size, 0)));
+      factors_[k].rows.resize(triangular(system.size, 0));
     else
       factors_[k].samples.resize(packWidth);
   }
   if (program.parameters() == 0) setParameters({});
 }
 
-void PackEvaluator::fill(int slot, const double* row) { std::copy_n(row, packWidth, slots_[at(slot)].values); }
+void PackEvaluator::fill(int slot, const double* row) { std::copy_n(row, packWidth, slots_[slot].values); }
 
 void PackEvaluator::run(const std::vector<Instruction>& instructions) {
   const auto execute = unit_ == VectorUnit::avx512 ? runOnAvx512
@@ -292,7 +292,7 @@ void PackEvaluator::run(const std::vector<Instruction>& instructions) {
 
 void PackEvaluator::setParameters(std::span<const double> p) {
   for (const auto& [input, slot] : tape_.constantInputs())
-    std::fill_n(slots_[at(slot)].values, packWidth, midpoint(tape_.constants()[at(input)]));
+    std::fill_n(slots_[slot].values, packWidth, midpoint(tape_.constants()[input]));
   for (const auto& [input, slot] : tape_.parameterInputs()) fill(slot, &p[at(input) * packWidth]);
   run(tape_.invariants());
 }
@@ -302,8 +302,7 @@ void PackEvaluator::operator()(std::span<const double> t, std::span<const double
   if (tape_.timeSlot() >= 0) fill(tape_.timeSlot(), t.data());
   run(tape_.instructions());
   const auto& outputs = tape_.outputSlots();
-  for (std::size_t i = 0; i < outputs.size(); ++i)
-    std::copy_n(slots_[at(outputs[i])].values, packWidth, &y[i * packWidth]);
+  for (std::size_t i = 0; i < outputs.size(); ++i) std::copy_n(slots_[outputs[i]].values, packWidth, &y[i * packWidth]);
 }
 
 void evaluateSamples(const Program& program, std::size_t n, double t, std::span<const double> x,

@@ -30,8 +30,8 @@ class Series {
   void setParameters(std::span<const S> p) {
     for (std::size_t i = 0; i < program_->nodes().size(); ++i) {
       const Node& n = program_->nodes()[i];
-      if (n.op == Op::parameter) at(static_cast<int>(i), 0) = p[detail::at(n.a)];
-      if (n.op == Op::constant) at(static_cast<int>(i), 0) = constant<S>(program_->constants()[detail::at(n.a)]);
+      if (n.op == Op::parameter) at(static_cast<int>(i), 0) = p[n.a];
+      if (n.op == Op::constant) at(static_cast<int>(i), 0) = constant<S>(program_->constants()[n.a]);
     }
   }
 
@@ -41,11 +41,11 @@ class Series {
   /// The solution's coefficients from x(t0): the program is ẋ = f(t, x, p). Afterwards at(state, i), i ≤ order.
   void solve(const S& t0, std::span<const S> x) {
     setTime(t0);
-    for (int s = 0; s < program_->states(); ++s) at(s, 0) = x[detail::at(s)];
+    for (int s = 0; s < program_->states(); ++s) at(s, 0) = x[s];
     for (int i = 0; i + 1 < size_; ++i) {
       for (int node = 0; node < nodeCount(); ++node) compute(node, i);
       for (int s = 0; s < program_->states(); ++s)
-        at(s, i + 1) = at(program_->outputNodes()[detail::at(s)], i) / S(static_cast<double>(i + 1));
+        at(s, i + 1) = at(program_->outputNodes()[s], i) / S(static_cast<double>(i + 1));
     }
   }
 
@@ -100,9 +100,9 @@ class Series {
       case Op::add:
       case Op::sub:
       case Op::mul:
-        return stands_[detail::at(n.a)] != 0 && stands_[detail::at(n.b)] != 0;
+        return stands_[n.a] != 0 && stands_[n.b] != 0;
       default:
-        return stands_[detail::at(n.a)] != 0;
+        return stands_[n.a] != 0;
     }
   }
 
@@ -116,8 +116,8 @@ class Series {
   }
 
   void compute(int node, int i) {
-    if (i > 0 && stands_[detail::at(node)] != 0) return;
-    const Node& n = program_->nodes()[detail::at(node)];
+    if (i > 0 && stands_[node] != 0) return;
+    const Node& n = program_->nodes()[node];
     switch (n.op) {
       case Op::state:
       case Op::parameter:
@@ -134,9 +134,9 @@ class Series {
         at(node, i) = -at(n.a, i);
         break;
       case Op::mul:
-        if (stands_[detail::at(n.a)] != 0)
+        if (stands_[n.a] != 0)
           at(node, i) = at(n.a, 0) * at(n.b, i);
-        else if (stands_[detail::at(n.b)] != 0)
+        else if (stands_[n.b] != 0)
           at(node, i) = at(n.a, i) * at(n.b, 0);
         else
           at(node, i) = convolution(n.a, n.b, i, 0, i);
@@ -159,7 +159,7 @@ class Series {
 
   template <class F>
   void computeFunction(F f, int x, int i) {
-    const Node& n = program_->nodes()[detail::at(x)];
+    const Node& n = program_->nodes()[x];
     if (i == 0)
       gamut::evaluate(f, at(n.a, 0), at(x, 0), at(hasTwin(n.op) ? x + 1 : x, 0));
     else if constexpr (requires { f.order(*this, x, n.a, n.b, i); })
@@ -168,22 +168,22 @@ class Series {
 
   /// A_0 x_i = r_i - Σ_{j=1}^{i} A_j x_{i-j}: one factorisation for all orders.
   void computeSolution(int first, int i) {
-    const LinearSolution& solution = program_->solutions()[detail::at(program_->nodes()[detail::at(first)].a)];
-    const LinearMatrix& matrix = program_->matrices()[detail::at(solution.matrix)];
-    LinearSystem<S>& system = systems_[detail::at(solution.matrix)];
-    if (isFactorised_[detail::at(solution.matrix)] == 0) {
+    const LinearSolution& solution = program_->solutions()[program_->nodes()[first].a];
+    const LinearMatrix& matrix = program_->matrices()[solution.matrix];
+    LinearSystem<S>& system = systems_[solution.matrix];
+    if (isFactorised_[solution.matrix] == 0) {
       system.assign(matrix.kind, matrix.size, [&](int k, int l) -> const S& { return at(matrix.entry(k, l), 0); });
-      isFactorised_[detail::at(solution.matrix)] = 1;
+      isFactorised_[solution.matrix] = 1;
     }
     std::vector<S> x;
     for (int k = 0; k < matrix.size; ++k) {
-      S sum = at(solution.rightSide[detail::at(k)], i);
+      S sum = at(solution.rightSide[k], i);
       for (int l = 0; l < matrix.size; ++l)
         sum = sum - convolution(solution.transposed ? matrix.entry(l, k) : matrix.entry(k, l), first + l, i, 1, i);
       x.push_back(sum);
     }
     system.solve(x, solution.transposed);
-    for (int k = 0; k < matrix.size; ++k) at(first + k, i) = x[detail::at(k)];
+    for (int k = 0; k < matrix.size; ++k) at(first + k, i) = x[k];
   }
 
   const Program* program_;

@@ -1,6 +1,7 @@
 // From a Program to a Tape, in four steps: what the outputs need; which sums take in the products and sums that only
 // they use; in what order; and which slot each value gets (a linear scan, M. Poletto and V. Sarkar 1999).
 #include "scalars/evaluation/tape.hpp"
+#include "scalars/index.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -52,17 +53,17 @@ class TapeWriter {
     tape_.slots_ = tape_.keptSlots_;
     tape_.invariants_ = allocate(invariants, true);
     tape_.instructions_ = allocate(steps, false);
-    for (int output : program_.outputNodes()) tape_.outputSlots_.push_back(slot_[at(output)]);
+    for (int output : program_.outputNodes()) tape_.outputSlots_.push_back(slot_[output]);
   }
 
  private:
-  const Node& node(int i) const { return nodes_[at(i)]; }
+  const Node& node(int i) const { return nodes_[i]; }
   int count() const { return static_cast<int>(nodes_.size()); }
   int steps() const { return count() + static_cast<int>(program_.matrices().size()); }
-  bool isNeeded(int i) const { return uses_[at(i)] > 0; }
+  bool isNeeded(int i) const { return uses_[i] > 0; }
 
-  const LinearSolution& solution(int i) const { return program_.solutions()[at(node(i).a)]; }
-  const LinearMatrix& matrix(int m) const { return program_.matrices()[at(m)]; }
+  const LinearSolution& solution(int i) const { return program_.solutions()[node(i).a]; }
+  const LinearMatrix& matrix(int m) const { return program_.matrices()[m]; }
 
   /// The node whose step computes node i: a cosine comes from its sine's, a component with component 0.
   int source(int i) const {
@@ -74,20 +75,20 @@ class TapeWriter {
     uses_.assign(nodes_.size(), 0);
     isOutput_.assign(nodes_.size(), false);
     isMatrixNeeded_.assign(program_.matrices().size(), false);
-    for (int output : program_.outputNodes()) ++uses_[at(output)], isOutput_[at(output)] = true;
+    for (int output : program_.outputNodes()) ++uses_[output], isOutput_[output] = true;
     for (int i = count() - 1; i >= 0; --i) {
       if (!isNeeded(i) || !isOperation(node(i).op)) continue;
       if (source(i) != i) {  // the operands are used by the source alone
-        ++uses_[at(source(i))];
+        ++uses_[source(i)];
       } else if (node(i).op == Op::solution) {
-        for (int r : solution(i).rightSide) ++uses_[at(r)];
+        for (int r : solution(i).rightSide) ++uses_[r];
         const int m = solution(i).matrix;
-        if (isMatrixNeeded_[at(m)]) continue;
-        isMatrixNeeded_[at(m)] = true;
-        for (int entry : matrix(m).entries) ++uses_[at(entry)];
+        if (isMatrixNeeded_[m]) continue;
+        isMatrixNeeded_[m] = true;
+        for (int entry : matrix(m).entries) ++uses_[entry];
       } else {
-        ++uses_[at(node(i).a)];
-        if (operandsOf(node(i).op) == 2) ++uses_[at(node(i).b)];
+        ++uses_[node(i).a];
+        if (operandsOf(node(i).op) == 2) ++uses_[node(i).b];
       }
     }
   }
@@ -96,16 +97,16 @@ class TapeWriter {
   void findUniform() {
     isUniform_.assign(nodes_.size(), true);
     for (int i = 0; i < count(); ++i) {
-      if (!isOperation(node(i).op)) isUniform_[at(i)] = node(i).op == Op::constant;
-      if (node(i).op == Op::solution) isUniform_[at(i)] = false;
+      if (!isOperation(node(i).op)) isUniform_[i] = node(i).op == Op::constant;
+      if (node(i).op == Op::solution) isUniform_[i] = false;
       for (int operand = 0; operand < operandsOf(node(i).op); ++operand)
-        if (!isUniform_[at(operand == 0 ? node(i).a : node(i).b)]) isUniform_[at(i)] = false;
+        if (!isUniform_[operand == 0 ? node(i).a : node(i).b]) isUniform_[i] = false;
     }
   }
 
   /// Only `user` uses node i, so that its value need not be stored.
   bool isOnlyFor(int i, int user) const {
-    return uses_[at(i)] == 1 && !isOutput_[at(i)] && program_.isInvariant(i) == program_.isInvariant(user);
+    return uses_[i] == 1 && !isOutput_[i] && program_.isInvariant(i) == program_.isInvariant(user);
   }
 
   /// Each sum takes in a sum that only it uses, as the accumulator's value, and products that only it uses.
@@ -117,20 +118,20 @@ class TapeWriter {
       const Node& n = node(i);
       if (!isNeeded(i) || !isSum(n.op)) continue;
       const auto fits = [&](int operand) {
-        return isSum(node(operand).op) && isOnlyFor(operand, i) && length[at(operand)] < longestChain;
+        return isSum(node(operand).op) && isOnlyFor(operand, i) && length[operand] < longestChain;
       };
       // The later of two sums: the earlier one is a value that waits. A difference can continue its minuend alone.
       int first = -1;
       if (fits(n.a)) first = n.a;
       if (n.op == Op::add && fits(n.b) && n.b > first) first = n.b;
       for (int operand : {n.a, n.b})
-        if (operand == first || (node(operand).op == Op::mul && isOnlyFor(operand, i))) absorbed_[at(operand)] = true;
-      accumulator_[at(i)] = first;
-      length[at(i)] = first >= 0 ? length[at(first)] + 1 : 2;
+        if (operand == first || (node(operand).op == Op::mul && isOnlyFor(operand, i))) absorbed_[operand] = true;
+      accumulator_[i] = first;
+      length[i] = first >= 0 ? length[first] + 1 : 2;
     }
   }
 
-  bool isAbsorbedProduct(int i) const { return node(i).op == Op::mul && absorbed_[at(i)]; }
+  bool isAbsorbedProduct(int i) const { return node(i).op == Op::mul && absorbed_[i]; }
 
   static Instruction instruction(TapeOp op, int a, int b) { return {.op = op, .stores = false, .a = a, .b = b}; }
 
@@ -144,7 +145,7 @@ class TapeWriter {
   void appendSum(int i, std::vector<Instruction>& chain) const {
     const Node& n = node(i);
     const bool negative = n.op == Op::sub;
-    if (const int first = accumulator_[at(i)]; first >= 0) {
+    if (const int first = accumulator_[i]; first >= 0) {
       appendSum(first, chain);
       chain.push_back(term(first == n.a ? n.b : n.a, negative));
     } else if (isAbsorbedProduct(n.a)) {
@@ -168,12 +169,12 @@ class TapeWriter {
       case TapeOp::product:
       case TapeOp::plusProduct:
       case TapeOp::minusProduct:
-        if (isUniform_[at(part.a)]) std::swap(part.a, part.b);
+        if (isUniform_[part.a]) std::swap(part.a, part.b);
         [[fallthrough]];
       case TapeOp::difference:
       case TapeOp::plus:
       case TapeOp::minus:
-        part.isUniform = isUniform_[at(part.b)];
+        part.isUniform = isUniform_[part.b];
         break;
       default:
         break;
@@ -204,9 +205,8 @@ class TapeWriter {
   }
 
   bool hasStep(int id, bool invariant) const {
-    if (id >= count())
-      return isMatrixNeeded_[at(id - count())] && program_.isInvariantMatrix(id - count()) == invariant;
-    return isNeeded(id) && !absorbed_[at(id)] && isOperation(node(id).op) && source(id) == id &&
+    if (id >= count()) return isMatrixNeeded_[id - count()] && program_.isInvariantMatrix(id - count()) == invariant;
+    return isNeeded(id) && !absorbed_[id] && isOperation(node(id).op) && source(id) == id &&
            program_.isInvariant(id) == invariant;
   }
 
@@ -223,8 +223,8 @@ class TapeWriter {
     std::vector<Step> written;
     std::vector<char> isFactorised(program_.matrices().size(), 0);
     for (int i = 0; i < count(); ++i) {
-      if (node(i).op == Op::solution && isFactorised[at(solution(i).matrix)] == 0) {
-        isFactorised[at(solution(i).matrix)] = 1;
+      if (node(i).op == Op::solution && isFactorised[solution(i).matrix] == 0) {
+        isFactorised[solution(i).matrix] = 1;
         if (const int id = count() + solution(i).matrix; hasStep(id, invariant)) written.push_back(step(id));
       }
       if (hasStep(i, invariant)) written.push_back(step(i));
@@ -235,24 +235,24 @@ class TapeWriter {
   /// The varying steps, each just before its first use, seen from the outputs.
   std::vector<Step> stepsOnDemand() const {
     std::vector<Step> written;
-    std::vector<char> done(at(steps()), 0);
+    std::vector<char> done(steps(), 0);
     std::vector<int> waiting;  // an explicit stack: programs are deep
     for (int output : program_.outputNodes()) {
       waiting.push_back(source(output));
       while (!waiting.empty()) {
         const int id = waiting.back();
-        if (done[at(id)] != 0 || !hasStep(id, false)) {
+        if (done[id] != 0 || !hasStep(id, false)) {
           waiting.pop_back();
           continue;
         }
         Step next = step(id);
         const std::size_t before = waiting.size();
         forEachSource(next, [&](int other) {
-          if (done[at(other)] == 0 && hasStep(other, false)) waiting.push_back(other);
+          if (done[other] == 0 && hasStep(other, false)) waiting.push_back(other);
         });
         if (waiting.size() > before) continue;
         waiting.pop_back();
-        done[at(id)] = 1;
+        done[id] = 1;
         written.push_back(std::move(next));
       }
     }
@@ -271,8 +271,8 @@ class TapeWriter {
   std::vector<int> lastReads(const std::vector<Step>& steps) const {
     std::vector<int> last(nodes_.size(), -1);
     for (std::size_t s = 0; s < steps.size(); ++s)
-      for (int operand : steps[s].reads) last[at(operand)] = static_cast<int>(s);
-    for (int output : program_.outputNodes()) last[at(output)] = forever;
+      for (int operand : steps[s].reads) last[operand] = static_cast<int>(s);
+    for (int output : program_.outputNodes()) last[output] = forever;
     return last;
   }
 
@@ -282,7 +282,7 @@ class TapeWriter {
     for (std::size_t s = 0; s < steps.size(); ++s) {
       for (int i : steps[s].results) {
         ++change[s];
-        if (last[at(i)] != forever) --change[std::max(s + 1, at(std::max(last[at(i)], 0)))];
+        if (last[i] != forever) --change[std::max(s + 1, at(std::max(last[i], 0)))];
       }
     }
     int alive = 0, most = 0;
@@ -293,7 +293,7 @@ class TapeWriter {
   /// Slots that outlive the invariant section: what the other section, or an output, reads of it.
   void keep(const std::vector<Step>& invariants) {
     std::vector<char> isKept(nodes_.size(), 0);
-    const auto mark = [&](int i) { isKept[at(i)] |= program_.isInvariant(i) ? 1 : 0; };
+    const auto mark = [&](int i) { isKept[i] |= program_.isInvariant(i) ? 1 : 0; };
     for (int i = 0; i < count(); ++i) {
       if (!isNeeded(i) || !isOperation(node(i).op) || program_.isInvariant(i) || source(i) != i) continue;
       if (node(i).op == Op::solution) {
@@ -307,10 +307,10 @@ class TapeWriter {
     }
     for (int output : program_.outputNodes()) mark(output);
     for (int i = 0; i < count(); ++i)
-      if (isKept[at(i)] != 0 && !isOperation(node(i).op)) slot_[at(i)] = tape_.keptSlots_++;
+      if (isKept[i] != 0 && !isOperation(node(i).op)) slot_[i] = tape_.keptSlots_++;
     for (const Step& s : invariants)
       for (int i : s.results)
-        if (isKept[at(i)] != 0) slot_[at(i)] = tape_.keptSlots_++;
+        if (isKept[i] != 0) slot_[i] = tape_.keptSlots_++;
   }
 
   /// The instructions of a step with the slots that they read and write.
@@ -318,16 +318,16 @@ class TapeWriter {
     if (chain.back().op == TapeOp::solution) {
       chain.back().result = static_cast<int>(tape_.solutions_.size());
       const LinearSolution& of = solution(step.id);
-      tape_.solutions_.push_back({system_[at(of.matrix)], of.transposed, reads, slotsOf(step.results)});
+      tape_.solutions_.push_back({system_[of.matrix], of.transposed, reads, slotsOf(step.results)});
     } else if (chain.back().op == TapeOp::factorise) {
       const LinearMatrix& of = matrix(step.id - count());
-      chain.back().result = system_[at(step.id - count())] = static_cast<int>(tape_.systems_.size());
+      chain.back().result = system_[step.id - count()] = static_cast<int>(tape_.systems_.size());
       tape_.systems_.push_back({of.kind, of.size, reads, detail::solvingOperations(program_.table(), of)});
     } else {
       for (std::size_t part = 0; part < chain.size(); ++part)
         chain[part].a = reads[2 * part], chain[part].b = reads[2 * part + 1];
-      chain.back().result = slot_[at(step.id)];
-      if (hasTwin(chain.back())) chain.back().b = slot_[at(step.id + 1)];
+      chain.back().result = slot_[step.id];
+      if (hasTwin(chain.back())) chain.back().b = slot_[step.id + 1];
     }
   }
 
@@ -337,22 +337,22 @@ class TapeWriter {
     std::vector<int> free;  // the slot freed last is taken first: it is in the cache
     int next = tape_.keptSlots_;
     const auto take = [&](int i) {
-      if (slot_[at(i)] >= 0) return;  // kept
+      if (slot_[i] >= 0) return;  // kept
       if (free.empty()) free.push_back(next++);
-      slot_[at(i)] = free.back();
+      slot_[i] = free.back();
       free.pop_back();
     };
     std::vector<std::vector<int>> dying(steps.size());
     const auto lives = [&](int i) {
-      const bool isTemporary = slot_[at(i)] >= tape_.keptSlots_;
-      if (isTemporary && last[at(i)] >= 0 && last[at(i)] != forever) dying[at(last[at(i)])].push_back(i);
+      const bool isTemporary = slot_[i] >= tape_.keptSlots_;
+      if (isTemporary && last[i] >= 0 && last[i] != forever) dying[last[i]].push_back(i);
     };
     for (int i = 0; i < count(); ++i) {
       const Node& n = node(i);
       if (!isNeeded(i) || isOperation(n.op) || program_.isInvariant(i) != invariant) continue;
       take(i);
       lives(i);
-      const int slot = slot_[at(i)];
+      const int slot = slot_[i];
       if (n.op == Op::constant) tape_.constantInputs_.push_back({n.a, slot});
       if (n.op == Op::parameter) tape_.parameterInputs_.push_back({n.a, slot});
       if (n.op == Op::state) tape_.stateInputs_.push_back({n.a, slot});
@@ -373,11 +373,11 @@ class TapeWriter {
       const bool isSolution = chain.back().op == TapeOp::solution;
       if (isSolution) takeResults();
       const std::vector<std::int32_t> reads = slotsOf(step.reads);
-      for (int i : dying[s]) free.push_back(slot_[at(i)]);
+      for (int i : dying[s]) free.push_back(slot_[i]);
       if (!isSolution) takeResults();
       complete(step, reads, chain);
       for (int i : step.results)  // a sine without its cosine, say, or the reverse: the other is never read
-        if (last[at(i)] < 0 && slot_[at(i)] >= tape_.keptSlots_) free.push_back(slot_[at(i)]);
+        if (last[i] < 0 && slot_[i] >= tape_.keptSlots_) free.push_back(slot_[i]);
       written.insert(written.end(), chain.begin(), chain.end());
     }
     tape_.slots_ = std::max(tape_.slots_, next);
@@ -386,7 +386,7 @@ class TapeWriter {
 
   std::vector<std::int32_t> slotsOf(const std::vector<int>& nodes) const {
     std::vector<std::int32_t> slots;
-    for (int i : nodes) slots.push_back(slot_[at(i)]);
+    for (int i : nodes) slots.push_back(slot_[i]);
     return slots;
   }
 
@@ -405,9 +405,9 @@ int Tape::operations() const {
   for (const Instruction& i : instructions_) {
     const bool isTwo = i.op == TapeOp::plusProduct || i.op == TapeOp::minusProduct || hasTwin(i);
     if (i.op == TapeOp::factorise) {
-      operations += systems_[at(i.result)].operations.factorisation;
+      operations += systems_[i.result].operations.factorisation;
     } else if (i.op == TapeOp::solution) {
-      operations += systems_[at(solutions_[at(i.result)].system)].operations.solution;
+      operations += systems_[solutions_[i.result].system].operations.solution;
     } else {
       operations += i.op == TapeOp::value ? 0 : isTwo ? 2 : 1;
     }

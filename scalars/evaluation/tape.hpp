@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "scalars/index.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/program/program.hpp"
 
@@ -51,7 +50,7 @@ struct TapeSystem {
   std::vector<std::int32_t> entries;  ///< the slots at the factorisation, row by row
   detail::SolvingOperations operations;
 
-  std::int32_t entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
+  std::int32_t entry(int i, int j) const { return entries[i * size + j]; }
 };
 
 /// A solution of a system that has been factorised.

@@ -5,12 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -22,9 +19,9 @@ struct HalfAngle {
 /// d, where the node is √(1/d)²; else -1.
 int inverseAt(const Program& program, const Node& square) {
   if (square.op != Op::sqr) return -1;
-  const Node& inverse = program.nodes()[at(square.a)];
+  const Node& inverse = program.nodes()[square.a];
   if (inverse.op != Op::recip) return -1;
-  const Node& root = program.nodes()[at(inverse.a)];
+  const Node& root = program.nodes()[inverse.a];
   return root.op == Op::sqrt ? root.a : -1;
 }
 
@@ -35,7 +32,7 @@ std::optional<HalfAngle> halfAngleAt(const Program& program, const Node& node) {
   while (!open.empty()) {
     const int i = open.back();
     open.pop_back();
-    const Node& factor = program.nodes()[at(i)];
+    const Node& factor = program.nodes()[i];
     if (const int d = inverseAt(program, factor); d >= 0 && found.d < 0) {
       found.d = d;
     } else if (factor.op == Op::mul) {
@@ -52,7 +49,7 @@ std::optional<HalfAngle> halfAngleAt(const Program& program, const Node& node) {
 std::vector<int> factorsOf(const Program& program, int node) {
   std::vector<int> open{node}, found;
   while (!open.empty()) {
-    const Node& factor = program.nodes()[at(open.back())];
+    const Node& factor = program.nodes()[open.back()];
     const int i = open.back();
     open.pop_back();
     if (factor.op == Op::mul)
@@ -68,13 +65,13 @@ std::vector<int> factorsOf(const Program& program, int node) {
 
 /// Whether r is √(x² + y²), of y's factors, up to signs.
 bool isLength(const Program& program, int r, int x, const std::vector<int>& y) {
-  const Node& sum = program.nodes()[at(program.nodes()[at(r)].a)];
+  const Node& sum = program.nodes()[program.nodes()[r].a];
   if (sum.op != Op::add) return false;
   std::vector<int> ofY;
   for (const int factor : y) std::ranges::copy(factorsOf(program, factor), std::back_inserter(ofY));
   std::ranges::sort(ofY);
   const auto isSquareOf = [&](int square, const std::vector<int>& factors) {
-    return program.nodes()[at(square)].op == Op::sqr && factorsOf(program, program.nodes()[at(square)].a) == factors;
+    return program.nodes()[square].op == Op::sqr && factorsOf(program, program.nodes()[square].a) == factors;
   };
   const std::vector<int> ofX = factorsOf(program, x);
   return (isSquareOf(sum.a, ofX) && isSquareOf(sum.b, ofY)) || (isSquareOf(sum.b, ofX) && isSquareOf(sum.a, ofY));
@@ -97,28 +94,28 @@ Program withHalfTurns(const Program& program) {
   const int one = result.constant(1.0), half = result.constant(0.5), eighth = result.atan(one);
   for (const int angle : angles) {  // operands come first, so that angles of angles find theirs
     here = result.append(program, {}, instead);
-    const HalfAngle of = *halfAngleAt(program, program.nodes()[at(angle)]);
-    const Node& sum = program.nodes()[at(of.d)];
+    const HalfAngle of = *halfAngleAt(program, program.nodes()[angle]);
+    const Node& sum = program.nodes()[of.d];
     if (sum.op != Op::add && sum.op != Op::sub) continue;
-    const auto isRoot = [&](int node) { return program.nodes()[at(node)].op == Op::sqrt; };
+    const auto isRoot = [&](int node) { return program.nodes()[node].op == Op::sqrt; };
     const auto isOurs = [&](int root, int x) { return isRoot(root) && isLength(program, root, x, of.y); };
     const bool isFirst = isOurs(sum.a, sum.b);
     if (!isFirst && !(sum.op == Op::add && isOurs(sum.b, sum.a))) continue;
-    const int r = here[at(isFirst ? sum.a : sum.b)], other = here[at(isFirst ? sum.b : sum.a)];
+    const int r = here[isFirst ? sum.a : sum.b], other = here[isFirst ? sum.b : sum.a];
     const int x = sum.op == Op::sub ? result.neg(other) : other;
     const int d = result.add(r, result.abs(x)), inverse = result.sqr(result.recip(result.sqrt(d)));
     std::vector<int> own = instead;
     for (std::size_t i = 0; i < own.size(); ++i)
       if (inverseAt(program, program.nodes()[i]) == of.d) own[i] = inverse;
-    const int acute = result.append(program, {}, own)[at(angle)];
+    const int acute = result.append(program, {}, own)[angle];
     int side = one;  // of y
-    for (const int y : of.y) side = result.mul(side, result.sign(here[at(y)]));
+    for (const int y : of.y) side = result.mul(side, result.sign(here[y]));
     side = result.sub(result.add(side, one), result.sqr(side));
     const int turn = result.mul(result.mul(half, result.sub(one, result.sign(x))), result.add(eighth, eighth));
-    instead[at(angle)] = result.add(result.mul(result.sign(x), acute), result.mul(side, turn));
+    instead[angle] = result.add(result.mul(result.sign(x), acute), result.mul(side, turn));
   }
   here = result.append(program, {}, instead);
-  for (const int output : program.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : program.outputNodes()) outputs.push_back(here[output]);
   return result.finish(outputs);
 }
 

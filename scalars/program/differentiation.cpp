@@ -11,8 +11,6 @@
 namespace gamut {
 namespace {
 
-using detail::at;
-
 /// A derivative that is known to be zero has no node.
 constexpr int zero = -1;
 
@@ -62,7 +60,7 @@ struct SolvedSystem {
   LinearMatrix matrix;  // copies: recording moves the originals
 
   SolvedSystem(const Recorder& r, int node)
-      : solution(r.table().solutions[at(r.node(node).a)]), matrix(r.table().matrices[at(solution.matrix)]) {}
+      : solution(r.table().solutions[r.node(node).a]), matrix(r.table().matrices[solution.matrix]) {}
   int size() const { return matrix.size; }
   int entry(int k, int j) const { return solution.transposed ? matrix.entry(j, k) : matrix.entry(k, j); }
 };
@@ -73,9 +71,9 @@ void solutionTangents(Recorder& r, int first, std::vector<int>& d) {
   std::vector<int> rightSide;
   bool isZero = true;
   for (int k = 0; k < system.size(); ++k) {
-    int sum = d[at(system.solution.rightSide[at(k)])];
+    int sum = d[system.solution.rightSide[k]];
     for (int j = 0; j < system.size(); ++j) {
-      const int entry = d[at(system.entry(k, j))];
+      const int entry = d[system.entry(k, j)];
       if (entry < 0) continue;
       const int product = r.mul(entry, first + j);
       sum = sum < 0 ? r.neg(product) : r.sub(sum, product);
@@ -86,7 +84,7 @@ void solutionTangents(Recorder& r, int first, std::vector<int>& d) {
   }
   if (isZero) return;
   const std::vector<int> components = r.solve(system.solution.matrix, system.solution.transposed, rightSide);
-  for (int k = 0; k < system.size(); ++k) d[at(first + k)] = components[at(k)];
+  for (int k = 0; k < system.size(); ++k) d[first + k] = components[k];
 }
 
 /// contribute(operand, adjoint) for a solution whose components have the adjoints x̄: with Mᵀ w = x̄ it is w for the
@@ -98,16 +96,16 @@ void solutionAdjoints(Recorder& r, int first, const std::vector<int>& adjoint, c
   std::vector<int> rightSide;
   bool isZero = true;
   for (int k = 0; k < system.size(); ++k) {
-    const int d = adjoint[at(first + k)];
+    const int d = adjoint[first + k];
     isZero = isZero && d < 0;
     rightSide.push_back(asNode(r, d));
   }
   if (isZero) return;
   const std::vector<int> w = r.solve(system.solution.matrix, !system.solution.transposed, rightSide);
   for (int k = 0; k < system.size(); ++k) {
-    if (active[at(system.solution.rightSide[at(k)])]) contribute(system.solution.rightSide[at(k)], w[at(k)]);
+    if (active[system.solution.rightSide[k]]) contribute(system.solution.rightSide[k], w[k]);
     for (int j = 0; j < system.size(); ++j)
-      if (active[at(system.entry(k, j))]) contribute(system.entry(k, j), r.neg(r.mul(w[at(k)], first + j)));
+      if (active[system.entry(k, j)]) contribute(system.entry(k, j), r.neg(r.mul(w[k], first + j)));
   }
 }
 
@@ -133,7 +131,7 @@ Program withJacobian(const Recorder& recorder, const Program& program, int colum
 int tangent(Recorder& r, int i, const std::vector<int>& d) {
   const Node n = r.node(i);
   if (operandsOf(n.op) == 0) return zero;
-  const int da = d[at(n.a)], db = operandsOf(n.op) == 2 ? d[at(n.b)] : zero;
+  const int da = d[n.a], db = operandsOf(n.op) == 2 ? d[n.b] : zero;
   if (da < 0 && db < 0) return zero;
   if (n.op == Op::sub && da >= 0 && db >= 0) return orZero(r, r.sub(da, db));
   const int left = da < 0 ? zero : chained(r, i, false, da);
@@ -142,7 +140,7 @@ int tangent(Recorder& r, int i, const std::vector<int>& d) {
 
 std::vector<int> outputsOf(const Program& program, const std::vector<int>& here) {
   std::vector<int> result;
-  for (int output : program.outputNodes()) result.push_back(here[at(output)]);
+  for (int output : program.outputNodes()) result.push_back(here[output]);
   return result;
 }
 
@@ -150,32 +148,32 @@ std::vector<int> outputsOf(const Program& program, const std::vector<int>& here)
 
 std::vector<int> tangents(Recorder& r, const std::vector<int>& of, const std::vector<std::pair<int, int>>& seeds) {
   const int last = lastOf(r, of);
-  std::vector<int> d(at(last + 1), zero);
+  std::vector<int> d(last + 1, zero);
   for (const auto& [input, value] : seeds)
-    if (input <= last) d[at(input)] = orZero(r, value);
+    if (input <= last) d[input] = orZero(r, value);
   for (int i = 0; i <= last; ++i) {
     const Node& n = r.node(i);
     if (n.op == Op::solution && n.b == 0) solutionTangents(r, i, d);
-    if (operandsOf(r.node(i).op) > 0) d[at(i)] = tangent(r, i, d);
+    if (operandsOf(r.node(i).op) > 0) d[i] = tangent(r, i, d);
   }
   std::vector<int> result;
-  for (int node : of) result.push_back(asNode(r, d[at(node)]));
+  for (int node : of) result.push_back(asNode(r, d[node]));
   return result;
 }
 
 Directions::Directions(Recorder& recorder, const std::vector<int>& of) : recorder_(recorder) {
   const int last = lastOf(recorder, of);
-  users_.resize(at(last + 1));
-  places_.resize(at(last + 1));
-  derivatives_.assign(at(last + 1), zero);
+  users_.resize(last + 1);
+  places_.resize(last + 1);
+  derivatives_.assign(last + 1, zero);
   for (int i = 0; i <= last; ++i) {
     const Node& n = recorder.node(i);
     if (n.op == Op::solution && n.b == 0)
-      detail::forEachOperand(recorder.table(), i, [&](int operand) { users_[at(operand)].push_back(i); });
-    if (operandsOf(n.op) > 0) users_[at(n.a)].push_back(i);
-    if (operandsOf(n.op) > 1) users_[at(n.b)].push_back(i);
+      detail::forEachOperand(recorder.table(), i, [&](int operand) { users_[operand].push_back(i); });
+    if (operandsOf(n.op) > 0) users_[n.a].push_back(i);
+    if (operandsOf(n.op) > 1) users_[n.b].push_back(i);
   }
-  for (std::size_t place = 0; place < of.size(); ++place) places_[at(of[place])].push_back(static_cast<int>(place));
+  for (std::size_t place = 0; place < of.size(); ++place) places_[of[place]].push_back(static_cast<int>(place));
 }
 
 /// Nodes in their order, as there.
@@ -186,28 +184,28 @@ std::vector<std::pair<int, int>> Directions::along(int input) {
   std::vector<int> known;
   std::set<int> open;
   const auto take = [&](int node) {
-    if (d[at(node)] < 0) return;
+    if (d[node] < 0) return;
     known.push_back(node);
-    open.insert(users_[at(node)].begin(), users_[at(node)].end());
+    open.insert(users_[node].begin(), users_[node].end());
   };
-  d[at(input)] = r.constant(1.0);
+  d[input] = r.constant(1.0);
   take(input);
   while (!open.empty()) {
     const int i = *open.begin();
     open.erase(open.begin());
     if (r.node(i).op != Op::solution) {
-      d[at(i)] = tangent(r, i, d);
+      d[i] = tangent(r, i, d);
       take(i);
       continue;
     }
-    const std::size_t size = r.table().solutions[at(r.node(i).a)].rightSide.size();
+    const std::size_t size = r.table().solutions[r.node(i).a].rightSide.size();
     solutionTangents(r, i, d);
     for (std::size_t k = 0; k < size; ++k) take(i + static_cast<int>(k));
   }
   std::vector<std::pair<int, int>> result;
   for (const int node : known)
-    for (const int place : places_[at(node)]) result.emplace_back(place, d[at(node)]);
-  for (const int node : known) d[at(node)] = zero;
+    for (const int place : places_[node]) result.emplace_back(place, d[node]);
+  for (const int node : known) d[node] = zero;
   std::ranges::sort(result);
   return result;
 }
@@ -216,32 +214,32 @@ std::vector<int> adjoints(Recorder& r, const std::vector<int>& of, const std::ve
                           const std::vector<int>& inputs) {
   const int last = std::max(lastOf(r, of), lastOf(r, inputs));
   // Only what depends on one of the inputs is worth an adjoint.
-  std::vector<char> active(at(last + 1), 0);
-  for (int input : inputs) active[at(input)] = 1;
+  std::vector<char> active(last + 1, 0);
+  for (int input : inputs) active[input] = 1;
   for (int i = 0; i <= last; ++i) {
     const Node& n = r.node(i);
-    if (operandsOf(n.op) > 0 && active[at(n.a)]) active[at(i)] = 1;
-    if (operandsOf(n.op) > 1 && active[at(n.b)]) active[at(i)] = 1;
+    if (operandsOf(n.op) > 0 && active[n.a]) active[i] = 1;
+    if (operandsOf(n.op) > 1 && active[n.b]) active[i] = 1;
     if (n.op == Op::solution)
       detail::forEachOperand(r.table(), i, [&](int operand) {
-        if (active[at(operand)]) active[at(i)] = 1;
+        if (active[operand]) active[i] = 1;
       });
   }
-  std::vector<int> adjoint(at(last + 1), zero);
-  const auto contribute = [&](int node, int d) { adjoint[at(node)] = orZero(r, sum(r, adjoint[at(node)], d)); };
+  std::vector<int> adjoint(last + 1, zero);
+  const auto contribute = [&](int node, int d) { adjoint[node] = orZero(r, sum(r, adjoint[node], d)); };
   for (std::size_t i = 0; i < of.size(); ++i)
-    if (active[at(of[i])]) contribute(of[i], orZero(r, weights[i]));
+    if (active[of[i]]) contribute(of[i], orZero(r, weights[i]));
   for (int i = last; i >= 0; --i) {
-    if (r.node(i).op == Op::solution && r.node(i).b == 0 && active[at(i)])
+    if (r.node(i).op == Op::solution && r.node(i).b == 0 && active[i])
       solutionAdjoints(r, i, adjoint, active, contribute);
-    const int operands = operandsOf(r.node(i).op), d = adjoint[at(i)];
+    const int operands = operandsOf(r.node(i).op), d = adjoint[i];
     if (operands == 0 || d < 0) continue;
     const Node n = r.node(i);
-    if (active[at(n.a)]) contribute(n.a, chained(r, i, false, d));
-    if (operands > 1 && active[at(n.b)]) contribute(n.b, chained(r, i, true, d));
+    if (active[n.a]) contribute(n.a, chained(r, i, false, d));
+    if (operands > 1 && active[n.b]) contribute(n.b, chained(r, i, true, d));
   }
   std::vector<int> result;
-  for (int input : inputs) result.push_back(asNode(r, adjoint[at(input)]));
+  for (int input : inputs) result.push_back(asNode(r, adjoint[input]));
   return result;
 }
 
@@ -251,7 +249,7 @@ Program forwardDifferentiated(const Program& program, bool withParameters) {
   std::vector<std::vector<int>> column;
   for (int j = 0; j < columns; ++j)
     column.push_back(tangents(recorder, program.outputNodes(), {{j, recorder.constant(1.0)}}));
-  return withJacobian(recorder, program, columns, [&](int i, int j) { return column[at(j)][at(i)]; });
+  return withJacobian(recorder, program, columns, [&](int i, int j) { return column[j][i]; });
 }
 
 Program reverseDifferentiated(const Program& program, bool withParameters) {
@@ -260,7 +258,7 @@ Program reverseDifferentiated(const Program& program, bool withParameters) {
   std::vector<std::vector<int>> row;
   for (int output : program.outputNodes())
     row.push_back(adjoints(recorder, {output}, {recorder.constant(1.0)}, inputsFrom(0, columns)));
-  return withJacobian(recorder, program, columns, [&](int i, int j) { return row[at(i)][at(j)]; });
+  return withJacobian(recorder, program, columns, [&](int i, int j) { return row[i][j]; });
 }
 
 Program gradient(const Program& program, bool withParameters) {

@@ -3,23 +3,19 @@
 
 #include <optional>
 
-#include "scalars/index.hpp"
-
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
 bool isHalf(const Program& program, int node) {
-  const Node& of = program.nodes()[at(node)];
-  return of.op == Op::constant && isEqual(program.constants()[at(of.a)], Interval(0.5));
+  const Node& of = program.nodes()[node];
+  return of.op == Op::constant && isEqual(program.constants()[of.a], Interval(0.5));
 }
 
 /// a and b of which `sum` is the sum and `difference` the difference, either way round.
 std::optional<Extreme> partsOf(const Program& program, int sum, int difference) {
   if (sum == difference) return Extreme{.a = sum, .b = sum, .byA = 1, .byB = 0};  // b is zero
-  const Node &s = program.nodes()[at(sum)], &d = program.nodes()[at(difference)];
+  const Node &s = program.nodes()[sum], &d = program.nodes()[difference];
   const bool isSame = (s.a == d.a && s.b == d.b) || (s.a == d.b && s.b == d.a);
   if (s.op == Op::add && d.op == Op::sub && isSame) return Extreme{.a = s.a, .b = s.b};
   if (s.op == Op::sub && d.op == Op::add && isSame) return Extreme{.a = s.a, .b = s.b, .byA = 1, .byB = -1};
@@ -33,12 +29,12 @@ std::vector<Extreme> extremesOf(const Program& program) {
   for (std::size_t i = 0; i < program.nodes().size(); ++i) {
     const Node& node = program.nodes()[i];
     if (node.op != Op::mul || !(isHalf(program, node.a) || isHalf(program, node.b))) continue;
-    const Node& twice = program.nodes()[at(isHalf(program, node.a) ? node.b : node.a)];
-    const auto isAbs = [&](int operand) { return program.nodes()[at(operand)].op == Op::abs; };
+    const Node& twice = program.nodes()[isHalf(program, node.a) ? node.b : node.a];
+    const auto isAbs = [&](int operand) { return program.nodes()[operand].op == Op::abs; };
     std::optional<Extreme> extreme;
     const auto consider = [&](int sum, int absolute, bool isMax) {
       if (extreme || !isAbs(absolute)) return;
-      extreme = partsOf(program, sum, program.nodes()[at(absolute)].a);
+      extreme = partsOf(program, sum, program.nodes()[absolute].a);
       if (extreme) extreme->isMax = isMax;
     };
     if (twice.op == Op::add) {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <ostream>
 
+#include "scalars/index.hpp"
 #include "scalars/operations/all.hpp"
 #include "scalars/program/passes.hpp"
 #include "scalars/program/program_text.hpp"
@@ -38,7 +39,7 @@ std::string textOf(const Interval& c) {
 }
 
 std::string nameIn(const std::vector<std::string>& names, int i, char letter) {
-  return at(i) < names.size() ? names[at(i)] : letter + std::to_string(i);
+  return at(i) < names.size() ? names[i] : letter + std::to_string(i);
 }
 
 class Printer {
@@ -53,23 +54,23 @@ class Printer {
   std::string text() {
     std::array<std::string, 2> lines;  // what depends on parameters alone, and the rest
     for (int i = 0; i < static_cast<int>(formulas_.size()); ++i) {
-      if (uses_[at(i)].count == 0) continue;
-      if (program_.nodes()[at(i)].op == Op::solution) {
-        if (program_.nodes()[at(i)].b == 0) writeSolution(i, lines);
+      if (uses_[i].count == 0) continue;
+      if (program_.nodes()[i].op == Op::solution) {
+        if (program_.nodes()[i].b == 0) writeSolution(i, lines);
         continue;
       }
       Formula formula = formulaOf(i);
-      if (isOperation(program_.nodes()[at(i)].op) && !isWrittenInside(i, formula)) {
+      if (isOperation(program_.nodes()[i].op) && !isWrittenInside(i, formula)) {
         const std::string name = 'v' + std::to_string(i);
         lines[program_.isInvariant(i) ? 0 : 1] += "  " + name + " = " + formula.text + '\n';
         formula = {name, atom};
       }
-      formulas_[at(i)] = std::move(formula);
+      formulas_[i] = std::move(formula);
     }
     std::string all = lines[0].empty() ? "" : "for given parameters:\n" + lines[0] + "for every state:\n";
     all += lines[1];
     for (int i = 0; i < program_.outputs(); ++i)
-      all += "  " + nameIn(names_.outputs, i, 'y') + " = " + formulas_[at(program_.outputNodes()[at(i)])].text + '\n';
+      all += "  " + nameIn(names_.outputs, i, 'y') + " = " + formulas_[program_.outputNodes()[i]].text + '\n';
     return all;
   }
 
@@ -84,29 +85,29 @@ class Printer {
   static std::vector<Uses> countedUses(const Program& program) {
     std::vector<Uses> uses(program.nodes().size());
     for (int output : program.outputNodes()) {
-      ++uses[at(output)].count;
-      uses[at(output)].byOutput = true;
+      ++uses[output].count;
+      uses[output].byOutput = true;
     }
     const auto use = [&uses](int node, bool byVarying) {
-      ++uses[at(node)].count;
-      uses[at(node)].byVarying = uses[at(node)].byVarying || byVarying;
+      ++uses[node].count;
+      uses[node].byVarying = uses[node].byVarying || byVarying;
     };
     std::vector<char> isUsed(program.matrices().size());
     for (int i = static_cast<int>(uses.size()) - 1; i >= 0; --i) {
-      const Node& n = program.nodes()[at(i)];
-      if (uses[at(i)].count == 0) continue;
+      const Node& n = program.nodes()[i];
+      if (uses[i].count == 0) continue;
       const bool varies = !program.isInvariant(i);
       for (int k = 0; k < operandsOf(n.op); ++k) use(k == 0 ? n.a : n.b, varies);
       if (n.op != Op::solution) continue;
       if (n.b > 0) {  // written with component 0
-        ++uses[at(i - n.b)].count;
+        ++uses[i - n.b].count;
         continue;
       }
-      const LinearSolution& solution = program.solutions()[at(n.a)];
+      const LinearSolution& solution = program.solutions()[n.a];
       for (int r : solution.rightSide) use(r, varies);
-      if (isUsed[at(solution.matrix)] != 0) continue;
-      isUsed[at(solution.matrix)] = 1;
-      for (int entry : program.matrices()[at(solution.matrix)].entries)
+      if (isUsed[solution.matrix] != 0) continue;
+      isUsed[solution.matrix] = 1;
+      for (int entry : program.matrices()[solution.matrix].entries)
         use(entry, !program.isInvariantMatrix(solution.matrix));
     }
     return uses;
@@ -122,29 +123,29 @@ class Printer {
 
   /// "M0 = [[v7, 1], [1, v9]]" before its first solution, and "[v10, v11] = solve(M0, [x0, x1])".
   void writeSolution(int first, std::array<std::string, 2>& lines) {
-    const LinearSolution& solution = program_.solutions()[at(program_.nodes()[at(first)].a)];
-    const LinearMatrix& matrix = program_.matrices()[at(solution.matrix)];
+    const LinearSolution& solution = program_.solutions()[program_.nodes()[first].a];
+    const LinearMatrix& matrix = program_.matrices()[solution.matrix];
     const std::string name = 'M' + std::to_string(solution.matrix);
-    if (isWritten_[at(solution.matrix)] == 0) {
-      isWritten_[at(solution.matrix)] = 1;
+    if (isWritten_[solution.matrix] == 0) {
+      isWritten_[solution.matrix] = 1;
       const auto row = [&](int i) {
-        return list(matrix.size, [&](int j) { return formulas_[at(matrix.entry(i, j))].text; });
+        return list(matrix.size, [&](int j) { return formulas_[matrix.entry(i, j)].text; });
       };
       lines[program_.isInvariantMatrix(solution.matrix) ? 0 : 1] +=
           "  " + name + " = " + list(matrix.size, row) +
           (matrix.kind == MatrixKind::positiveDefinite ? ", positive definite\n" : "\n");
     }
     const std::string components = list(matrix.size, [&](int k) {
-      formulas_[at(first + k)] = {'v' + std::to_string(first + k), atom};
-      return formulas_[at(first + k)].text;
+      formulas_[first + k] = {'v' + std::to_string(first + k), atom};
+      return formulas_[first + k].text;
     });
     lines[program_.isInvariant(first) ? 0 : 1] +=
         "  " + components + " = solve(" + (solution.transposed ? "transpose(" + name + ')' : name) + ", " +
-        list(matrix.size, [&](int k) { return formulas_[at(solution.rightSide[at(k)])].text; }) + ")\n";
+        list(matrix.size, [&](int k) { return formulas_[solution.rightSide[k]].text; }) + ")\n";
   }
 
   bool isWrittenInside(int i, const Formula& formula) const {
-    const Uses& uses = uses_[at(i)];
+    const Uses& uses = uses_[i];
     if (uses.count != 1) return false;
     if (program_.isInvariant(i) && program_.parameters() > 0) return !uses.byVarying && !uses.byOutput;
     return uses.byOutput || formula.text.size() <= longestInside;
@@ -152,12 +153,12 @@ class Printer {
 
   /// The formula of an operand, in parentheses where it binds less than asked for.
   std::string operand(int i, Binding least) const {
-    const Formula& f = formulas_[at(i)];
+    const Formula& f = formulas_[i];
     return f.binding >= least ? f.text : '(' + f.text + ')';
   }
 
   Formula formulaOf(int i) const {
-    const Node& n = program_.nodes()[at(i)];
+    const Node& n = program_.nodes()[i];
     switch (n.op) {
       case Op::state:
         return {nameIn(names_.states, n.a, 'x')};
@@ -166,7 +167,7 @@ class Printer {
       case Op::time:
         return {"t"};
       case Op::constant: {
-        const std::string text = textOf(program_.constants()[at(n.a)]);
+        const std::string text = textOf(program_.constants()[n.a]);
         return {text, text.front() == '-' ? product : atom};
       }
       case Op::add:
@@ -177,8 +178,8 @@ class Printer {
         return {'-' + operand(n.a, power), sum};
       case Op::mul:
         // A reciprocal that is written here is a division.
-        if (isQuotient(n.b)) return {operand(n.a, product) + formulas_[at(n.b)].text.substr(1), product};
-        if (isQuotient(n.a)) return {operand(n.b, product) + formulas_[at(n.a)].text.substr(1), product};
+        if (isQuotient(n.b)) return {operand(n.a, product) + formulas_[n.b].text.substr(1), product};
+        if (isQuotient(n.a)) return {operand(n.b, product) + formulas_[n.a].text.substr(1), product};
         return {operand(n.a, product) + " * " + operand(n.b, power), product};
       case Op::sqr:
         return {operand(n.a, atom) + "^2", power};
@@ -188,17 +189,14 @@ class Printer {
         return {};  // written by writeSolution
       default:
         return withFunction(n.op, [&](auto f) -> Formula {
-          if (!f.before.empty())
-            return {std::string(f.before) + formulas_[at(n.a)].text + std::string(f.behind), power};
-          return {std::string(nameOf(n.op)) + '(' + formulas_[at(n.a)].text + ')'};
+          if (!f.before.empty()) return {std::string(f.before) + formulas_[n.a].text + std::string(f.behind), power};
+          return {std::string(nameOf(n.op)) + '(' + formulas_[n.a].text + ')'};
         });
     }
   }
 
   /// True for a reciprocal that has no name: its formula begins with "1 / ".
-  bool isQuotient(int i) const {
-    return program_.nodes()[at(i)].op == Op::recip && formulas_[at(i)].binding == product;
-  }
+  bool isQuotient(int i) const { return program_.nodes()[i].op == Op::recip && formulas_[i].binding == product; }
 
   const Program& program_;
   const ProgramNames& names_;
@@ -220,8 +218,8 @@ void print(std::ostream& out, const Program& program, const ProgramNames& names)
                      counted(program.outputs(), "output") + "; " + counted(counts.operations, "operation");
   const char* before = ": ";
   for (int i = 0; i < opCount; ++i) {
-    if (counts.of[at(i)] == 0) continue;
-    text += before + std::to_string(counts.of[at(i)]) + ' ' + std::string(nameOf(static_cast<Op>(i)));
+    if (counts.of[i] == 0) continue;
+    text += before + std::to_string(counts.of[i]) + ' ' + std::string(nameOf(static_cast<Op>(i)));
     before = ", ";
   }
   if (counts.invariant > 0) text += "; " + std::to_string(counts.invariant) + " once for given parameters";

@@ -5,11 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "scalars/index.hpp"
-
 namespace gamut {
-
-using detail::at;
 
 Interval rangeOf(const LinearForm& form, std::span<const Interval> states, std::span<const Interval> parameters) {
   Interval sum = form.constant;
@@ -50,28 +46,28 @@ std::optional<LinearForm> combined(const LinearForm& a, const Interval& by, cons
 std::optional<LinearForm> linearFormOf(const Program& f, int node) {
   std::vector<std::optional<LinearForm>> forms;
   LinearForm zero;
-  zero.states.assign(at(f.states()), 0.0);
-  zero.parameters.assign(at(f.parameters()), 0.0);
+  zero.states.assign(f.states(), 0.0);
+  zero.parameters.assign(f.parameters(), 0.0);
   for (int i = 0; i <= node; ++i) {
-    const Node& n = f.nodes()[at(i)];
+    const Node& n = f.nodes()[i];
     std::optional<LinearForm> form;
-    const auto operand = [&](int which) -> const std::optional<LinearForm>& { return forms[at(which)]; };
+    const auto operand = [&](int which) -> const std::optional<LinearForm>& { return forms[which]; };
     const auto constant = [&](int which) {
-      const Node& of = f.nodes()[at(which)];
-      return of.op == Op::constant ? f.constants()[at(of.a)] : Interval::entire();
+      const Node& of = f.nodes()[which];
+      return of.op == Op::constant ? f.constants()[of.a] : Interval::entire();
     };
     switch (n.op) {
       case Op::state:
         form = zero;
-        form->states[at(n.a)] = 1;
+        form->states[n.a] = 1;
         break;
       case Op::parameter:
         form = zero;
-        form->parameters[at(n.a)] = 1;
+        form->parameters[n.a] = 1;
         break;
       case Op::constant:
         form = zero;
-        form->constant = f.constants()[at(n.a)];
+        form->constant = f.constants()[n.a];
         break;
       case Op::add:
       case Op::sub:
@@ -96,7 +92,7 @@ std::optional<LinearForm> linearFormOf(const Program& f, int node) {
   if (!result) return result;
   const auto size = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
   result->pivot = static_cast<int>(std::ranges::max_element(result->states, size) - result->states.begin());
-  if (result->states.empty() || result->states[at(result->pivot)] == 0) result.reset();
+  if (result->states.empty() || result->states[result->pivot] == 0) result.reset();
   return result;
 }
 
@@ -134,7 +130,7 @@ bool isSameForm(const LinearForm& a, const LinearForm& b) {
 }
 
 double signOfRatio(const LinearForm& a, const LinearForm& b) {
-  const double ofA = a.states[at(b.pivot)], ofB = b.states[at(b.pivot)];
+  const double ofA = a.states[b.pivot], ofB = b.states[b.pivot];
   const auto isSame = [&](const Interval& x, const Interval& y) {  // x/ofA = y/ofB
     const Interval left = x * Interval(ofB), right = y * Interval(ofA);
     const bool isZero = isEqual(x, Interval(0.0)) && isEqual(y, Interval(0.0));

@@ -7,13 +7,11 @@
 namespace gamut {
 namespace {
 
-using detail::at;
-
 Program rewritten(const Program& program, RuleSet rules) {
   Recorder recorder(program.states(), program.parameters(), rules);
   const std::vector<int> here = recorder.append(program);
   std::vector<int> outputs;
-  for (int output : program.outputNodes()) outputs.push_back(here[at(output)]);
+  for (int output : program.outputNodes()) outputs.push_back(here[output]);
   return recorder.program(outputs);
 }
 
@@ -32,8 +30,8 @@ constexpr Pass table[] = {
 std::vector<int> usesOf(const Program& program) {
   std::vector<int> uses(program.nodes().size(), 0);
   for (int i = 0; i < static_cast<int>(uses.size()); ++i)  // denominators too: derivatives need them
-    detail::forEachOperand(program.table(), i, [&](int operand) { ++uses[at(operand)]; });
-  for (int output : program.outputNodes()) ++uses[at(output)];
+    detail::forEachOperand(program.table(), i, [&](int operand) { ++uses[operand]; });
+  for (int output : program.outputNodes()) ++uses[output];
   return uses;
 }
 
@@ -88,7 +86,7 @@ std::vector<ProductSum> sumsOfProducts(const Program& program) {
   const auto& nodes = program.nodes();
   const std::vector<int> uses = usesOf(program);
   // An inner node belongs to the sum above it: used once, varying as that sum does, and itself a sum or a product.
-  const auto isInner = [&](int node) { return uses[at(node)] == 1 && !program.isInvariant(node); };
+  const auto isInner = [&](int node) { return uses[node] == 1 && !program.isInvariant(node); };
   std::vector<char> belongs(nodes.size(), 0);
   std::vector<ProductSum> result;
   for (std::size_t i = nodes.size(); i-- > 0;) {
@@ -100,9 +98,9 @@ std::vector<ProductSum> sumsOfProducts(const Program& program) {
     while (!open.empty()) {
       const auto [node, sign] = open.back();
       open.pop_back();
-      const Node& n = nodes[at(node)];
+      const Node& n = nodes[node];
       if (isSum(n.op) && (node == root || isInner(node))) {
-        belongs[at(node)] = 1;
+        belongs[node] = 1;
         if (operandsOf(n.op) == 2) open.emplace_back(n.b, n.op == Op::sub ? -sign : sign);
         open.emplace_back(n.a, n.op == Op::neg ? -sign : sign);
       } else if ((n.op == Op::mul || n.op == Op::sqr) && isInner(node)) {

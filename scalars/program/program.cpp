@@ -35,19 +35,19 @@ SolvingOperations solvingOperations(const NodeTable& table, const LinearMatrix& 
   const int n = matrix.size;
   std::vector<char> isThere;
   for (int entry : matrix.entries) {
-    const Node& node = table.nodes[at(entry)];
-    const bool isZero = node.op == Op::constant && isEqual(table.constants[at(node.a)], 0.0);
+    const Node& node = table.nodes[entry];
+    const bool isZero = node.op == Op::constant && isEqual(table.constants[node.a], 0.0);
     isThere.push_back(!isZero);
   }
-  const auto there = [&](int i, int j) -> char& { return isThere[at(i * n + j)]; };
+  const auto there = [&](int i, int j) -> char& { return isThere[i * n + j]; };
   const bool isGeneral = matrix.kind == MatrixKind::general;
   const int entries = static_cast<int>(std::count(isThere.begin(), isThere.end(), 1));
-  std::vector<char> isOpen(at(n), 1);  // rows that have not been pivots
+  std::vector<char> isOpen(n, 1);  // rows that have not been pivots
   SolvingOperations count;
   for (int k = 0; k < n; ++k) {
     std::vector<int> rows, columns;  // of the entries below the pivot, and right of it
     for (int i = isGeneral ? 0 : k + 1; i < n; ++i)
-      if (isOpen[at(i)] != 0 && there(i, k) != 0) rows.push_back(i);
+      if (isOpen[i] != 0 && there(i, k) != 0) rows.push_back(i);
     const auto isInRow = [&](int j) {
       return std::any_of(rows.begin(), rows.end(), [&](int i) { return there(i, j) != 0; });
     };
@@ -56,7 +56,7 @@ SolvingOperations solvingOperations(const NodeTable& table, const LinearMatrix& 
     if (!isGeneral) columns = rows;
     for (int i : rows)
       for (int j : columns) there(i, j) = 1;
-    if (isGeneral && !rows.empty()) isOpen[at(rows.back())] = 0, rows.pop_back();
+    if (isGeneral && !rows.empty()) isOpen[rows.back()] = 0, rows.pop_back();
     const int below = static_cast<int>(rows.size()), right = static_cast<int>(columns.size());
     // The inverse of the pivot, its column times that, then the rest updated: a triangle of it if it is symmetric.
     count.factorisation += 1 + below + (isGeneral ? 2 * below * right : below * (below + 1));
@@ -69,7 +69,7 @@ SolvingOperations solvingOperations(const NodeTable& table, const LinearMatrix& 
 }  // namespace detail
 
 bool Program::isInvariantMatrix(int m) const {
-  return std::ranges::all_of(matrices()[detail::at(m)].entries, [this](int entry) { return isInvariant(entry); });
+  return std::ranges::all_of(matrices()[m].entries, [this](int entry) { return isInvariant(entry); });
 }
 
 int Program::operations() const {
@@ -80,10 +80,10 @@ int Program::operations() const {
     if (n.op != Op::solution) {
       count += isOperation(n.op) && invariant_[i] == 0;
     } else if (n.b == 0 && invariant_[i] == 0) {
-      const int m = solutions()[detail::at(n.a)].matrix;
-      const detail::SolvingOperations solving = detail::solvingOperations(table(), matrices()[detail::at(m)]);
-      if (!isInvariantMatrix(m) && isFactorised[detail::at(m)] == 0) count += solving.factorisation;
-      isFactorised[detail::at(m)] = 1;
+      const int m = solutions()[n.a].matrix;
+      const detail::SolvingOperations solving = detail::solvingOperations(table(), matrices()[m]);
+      if (!isInvariantMatrix(m) && isFactorised[m] == 0) count += solving.factorisation;
+      isFactorised[m] = 1;
       count += solving.solution;
     }
   }

@@ -8,7 +8,6 @@
 #include <iosfwd>
 #include <vector>
 
-#include "scalars/index.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/operations/op.hpp"
 
@@ -34,7 +33,7 @@ struct LinearMatrix {
   int size = 0;
   std::vector<int> entries;  ///< row by row
 
-  int entry(int row, int column) const { return entries[detail::at(row * size + column)]; }
+  int entry(int row, int column) const { return entries[row * size + column]; }
   bool operator==(const LinearMatrix&) const = default;
 };
 
@@ -69,7 +68,7 @@ SolvingOperations solvingOperations(const NodeTable& table, const LinearMatrix& 
 /// 0 of a solution has the operands of the whole, the others have component 0.
 template <class Visit>
 void forEachOperand(const NodeTable& table, int i, Visit visit) {
-  const Node& n = table.nodes[at(i)];
+  const Node& n = table.nodes[i];
   if (!isOperation(n.op)) return;
   if (n.op != Op::solution) {
     visit(n.a);
@@ -77,8 +76,8 @@ void forEachOperand(const NodeTable& table, int i, Visit visit) {
   } else if (n.b > 0) {
     visit(i - n.b);
   } else {
-    const LinearSolution& solution = table.solutions[at(n.a)];
-    for (int entry : table.matrices[at(solution.matrix)].entries) visit(entry);
+    const LinearSolution& solution = table.solutions[n.a];
+    for (int entry : table.matrices[solution.matrix].entries) visit(entry);
     for (int r : solution.rightSide) visit(r);
   }
 }
@@ -87,11 +86,11 @@ void forEachOperand(const NodeTable& table, int i, Visit visit) {
 /// its sech2, the components of a solution. One is never there without the others.
 template <class Visit>
 void forEachTwin(const NodeTable& table, int i, Visit visit) {
-  const Node& n = table.nodes[at(i)];
+  const Node& n = table.nodes[i];
   int first = i, count = 1;
   if (hasTwin(n.op)) count = 2;
   if (isTwin(n.op)) first = i - 1, count = 2;
-  if (n.op == Op::solution) first = i - n.b, count = static_cast<int>(table.solutions[at(n.a)].rightSide.size());
+  if (n.op == Op::solution) first = i - n.b, count = static_cast<int>(table.solutions[n.a].rightSide.size());
   for (int k = 0; k < count; ++k) visit(first + k);
 }
 
@@ -116,7 +115,7 @@ class Program {
   /// All of these together, for detail::forEachOperand and forEachTwin.
   const detail::NodeTable& table() const { return table_; }
   /// True if the node's value depends neither on time nor on a state: it is evaluated once for given parameters.
-  bool isInvariant(int node) const { return invariant_[detail::at(node)] != 0; }
+  bool isInvariant(int node) const { return invariant_[node] != 0; }
   /// Likewise of a matrix, number `m` of matrices(): all of its entries are.
   bool isInvariantMatrix(int m) const;
   /// Number of operations of one evaluation: nodes that are neither inputs nor constants nor invariant, and in place of

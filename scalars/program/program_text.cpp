@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "scalars/index.hpp"
 #include "scalars/operations/all.hpp"
 #include "scalars/program/recorder.hpp"
 
@@ -187,7 +188,7 @@ void readSolution(const Lines& lines, bool isFirst, Parts& parts) {
   solution.matrix = *number;
   if (isFirst && detail::at(*number) + 1 != parts.matrices.size())
     lines.fail("a matrix is followed by its first solution, not by one of matrix " + std::to_string(*number));
-  const LinearMatrix& matrix = parts.matrices[detail::at(*number)];
+  const LinearMatrix& matrix = parts.matrices[*number];
   solution.transposed = words.size() > 3 && words[3] == "transposed";
   if (solution.transposed && matrix.kind == MatrixKind::positiveDefinite)
     lines.fail("a positive definite matrix is not transposed: " + quoted(lines.text()));
@@ -203,7 +204,7 @@ void readSolution(const Lines& lines, bool isFirst, Parts& parts) {
 int missingComponents(const Parts& parts) {
   const Node& last = parts.nodes.back();
   if (last.op != Op::solution) return 0;
-  return static_cast<int>(parts.solutions[detail::at(last.a)].rightSide.size()) - 1 - last.b;
+  return static_cast<int>(parts.solutions[last.a].rightSide.size()) - 1 - last.b;
 }
 
 Node readOperation(const Lines& lines, const std::vector<std::string_view>& words, Op op, const Parts& parts) {
@@ -282,11 +283,11 @@ Program assembled(const Parts& parts, const std::vector<int>& outputs) {
   for (std::size_t i = detail::at(recorder.size()); i < parts.nodes.size(); ++i) {
     const Node& n = parts.nodes[i];
     if (n.op == Op::constant) {
-      recorder.constant(parts.constants[detail::at(n.a)]);
+      recorder.constant(parts.constants[n.a]);
     } else if (n.op == Op::solution && n.b == 0) {
-      const LinearSolution& solution = parts.solutions[detail::at(n.a)];
+      const LinearSolution& solution = parts.solutions[n.a];
       if (detail::at(solution.matrix) == recorder.table().matrices.size())
-        recorder.matrix(parts.matrices[detail::at(solution.matrix)]);
+        recorder.matrix(parts.matrices[solution.matrix]);
       recorder.solve(solution.matrix, solution.transposed, solution.rightSide);
     } else if (!isTwin(n.op) && n.op != Op::solution) {  // these come with the first of their pairs and components
       recorder.emit(n.op, n.a, n.b);
@@ -317,7 +318,7 @@ void saveProgram(std::ostream& out, const Program& program) {
     if (n.op == Op::solution && n.b > 0) {
       text = std::to_string(i) + " component " + std::to_string(n.b);
     } else if (n.op == Op::solution) {
-      const LinearSolution& solution = program.solutions()[detail::at(n.a)];
+      const LinearSolution& solution = program.solutions()[n.a];
       if (detail::at(solution.matrix) == matrices) {
         const LinearMatrix& matrix = program.matrices()[matrices++];
         std::string entries = "matrix " + std::string(nameOf(matrix.kind));
@@ -327,7 +328,7 @@ void saveProgram(std::ostream& out, const Program& program) {
       text += ' ' + std::to_string(solution.matrix) + (solution.transposed ? " transposed" : "");
       add(text, solution.rightSide);
     } else if (n.op == Op::constant) {
-      const Interval& value = program.constants()[detail::at(n.a)];
+      const Interval& value = program.constants()[n.a];
       text += ' ' + toExactString(value.lower()) + ' ' + toExactString(value.upper());
     } else {
       if (n.a >= 0) text += ' ' + std::to_string(n.a);

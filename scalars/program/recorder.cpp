@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include "scalars/index.hpp"
 #include "scalars/operations/all.hpp"
 #include "scalars/program/rules.hpp"
 
@@ -37,18 +38,18 @@ std::vector<int> keyOf(const LinearSolution& solution) {
 void detail::NodeList::push(const Node& node) {
   const int number = static_cast<int>(nodes.size());
   nodes.push_back(node);
-  const Signless inside = node.op == Op::neg ? signless[at(node.a)] : Signless{number, true};
+  const Signless inside = node.op == Op::neg ? signless[node.a] : Signless{number, true};
   signless.push_back({inside.node, !inside.isNegative});
 }
 
 bool detail::NodeList::isOnePlusSquare(int b, int a) const {
-  const auto node = [&](int i) -> const Node& { return nodes[at(i)]; };
-  const auto value = [&](int i) { return node(i).op == Op::constant ? constants[at(node(i).a)] : Interval::empty(); };
+  const auto node = [&](int i) -> const Node& { return nodes[i]; };
+  const auto value = [&](int i) { return node(i).op == Op::constant ? constants[node(i).a] : Interval::empty(); };
   const auto isSquare = [&](int q) {
     const bool isWritten = node(q).op == Op::sqr || (node(q).op == Op::mul && node(q).a == node(q).b);
     // Folded only where it is a double: then the number is known.
     const bool isFolded = isThin(value(a)) && isThin(value(q)) && isEqual(sqr(value(a)), value(q));
-    return isFolded || (isWritten && signless[at(node(q).a)].node == signless[at(a)].node);
+    return isFolded || (isWritten && signless[node(q).a].node == signless[a].node);
   };
   const auto isOne = [&](int i) { return isEqual(value(i), 1.0); };
   const Interval whole = 1.0 + sqr(value(a));
@@ -83,7 +84,7 @@ Recorder::Recorder(const Program& program, RuleSet rules)
     const Node& n = node(i);
     if (n.op == Op::constant && isThin(value(i))) knownDoubles_.emplace(value(i).lower(), i);
     if (n.op == Op::solution && n.b == 0)
-      knownSolutions_.emplace(keyOf(list_.solutions[at(n.a)]), i);
+      knownSolutions_.emplace(keyOf(list_.solutions[n.a]), i);
     else if (isOperation(n.op))
       known_.emplace(Key{n.op, n.a, n.b}, i);
   }
@@ -236,7 +237,7 @@ std::vector<int> Recorder::append(const Program& program, const std::vector<int>
   std::vector<int> here, matrices, components;
   here.reserve(program.nodes().size());
   const auto mapped = [&here](std::vector<int> nodes) {
-    for (int& node : nodes) node = here[at(node)];
+    for (int& node : nodes) node = here[node];
     return nodes;
   };
   int twin = -1;
@@ -248,28 +249,28 @@ std::vector<int> Recorder::append(const Program& program, const std::vector<int>
     }
     if (n.op == Op::solution) {
       if (n.b == 0) {
-        const LinearSolution& solution = program.solutions()[at(n.a)];
-        const LinearMatrix& of = program.matrices()[at(solution.matrix)];
-        int& number = matrices[at(solution.matrix)];
+        const LinearSolution& solution = program.solutions()[n.a];
+        const LinearMatrix& of = program.matrices()[solution.matrix];
+        int& number = matrices[solution.matrix];
         if (number < 0) number = matrix({of.kind, of.size, mapped(of.entries)});
         components = solve(number, solution.transposed, mapped(solution.rightSide));
       }
-      here.push_back(components[at(n.b)]);
+      here.push_back(components[n.b]);
       continue;
     }
-    const int a = isOperation(n.op) ? here[at(n.a)] : -1, b = isOperation(n.op) && n.b >= 0 ? here[at(n.b)] : -1;
+    const int a = isOperation(n.op) ? here[n.a] : -1, b = isOperation(n.op) && n.b >= 0 ? here[n.b] : -1;
     switch (n.op) {
       case Op::state:
         here.push_back(state(n.a));
         break;
       case Op::parameter:
-        here.push_back(parameters.empty() ? parameter(n.a) : parameters[at(n.a)]);
+        here.push_back(parameters.empty() ? parameter(n.a) : parameters[n.a]);
         break;
       case Op::time:
         here.push_back(time());
         break;
       case Op::constant:
-        here.push_back(constant(program.constants()[at(n.a)]));
+        here.push_back(constant(program.constants()[n.a]));
         break;
       default:
         if (hasTwin(n.op)) {
@@ -290,13 +291,13 @@ Program Recorder::program(const std::vector<int>& outputs) const {
 
 Program Recorder::finish(const std::vector<int>& outputs) const {
   std::vector<char> used(list_.nodes.size(), 0);
-  for (int i = 0; i <= states_ + parameters_; ++i) used[at(i)] = 1;
-  for (int output : outputs) used[at(output)] = 1;
+  for (int i = 0; i <= states_ + parameters_; ++i) used[i] = 1;
+  for (int output : outputs) used[output] = 1;
   for (int i = size() - 1; i >= 0; --i) {
-    if (!used[at(i)]) continue;
+    if (!used[i]) continue;
     // Twins stay together; the last is met first on this way back, so the others are still to come.
-    detail::forEachTwin(list_, i, [&](int twin) { used[at(twin)] = 1; });
-    detail::forEachOperand(list_, i, [&](int operand) { used[at(operand)] = 1; });
+    detail::forEachTwin(list_, i, [&](int twin) { used[twin] = 1; });
+    detail::forEachOperand(list_, i, [&](int operand) { used[operand] = 1; });
   }
   return selected(used, outputs);
 }
@@ -308,25 +309,25 @@ Program Recorder::selected(const std::vector<char>& wanted, const std::vector<in
   detail::NodeTable& table = program.table_;
   std::vector<int> renumbered(list_.nodes.size(), -1), matrices(list_.matrices.size(), -1);
   const auto moved = [&renumbered](std::vector<int> nodes) {
-    for (int& node : nodes) node = renumbered[at(node)];
+    for (int& node : nodes) node = renumbered[node];
     return nodes;
   };
   for (int i = 0; i < size(); ++i) {
-    if (!wanted[at(i)]) continue;
+    if (!wanted[i]) continue;
     Node n = node(i);
     if (n.op == Op::parameter && n.a >= parameters_)
       throw std::logic_error("a recorded program depends on an unknown that was to be eliminated");
     bool invariant = n.op == Op::parameter || n.op == Op::constant || isOperation(n.op);
-    detail::forEachOperand(
-        list_, i, [&](int operand) { invariant = invariant && program.invariant_[at(renumbered[at(operand)])]; });
+    detail::forEachOperand(list_, i,
+                           [&](int operand) { invariant = invariant && program.invariant_[renumbered[operand]]; });
     if (n.op == Op::constant) {
-      table.constants.push_back(list_.constants[at(n.a)]);
+      table.constants.push_back(list_.constants[n.a]);
       n.a = static_cast<int>(table.constants.size()) - 1;
     } else if (n.op == Op::solution) {
       if (n.b == 0) {
-        const LinearSolution& solution = list_.solutions[at(n.a)];
-        const LinearMatrix& matrix = list_.matrices[at(solution.matrix)];
-        int& number = matrices[at(solution.matrix)];
+        const LinearSolution& solution = list_.solutions[n.a];
+        const LinearMatrix& matrix = list_.matrices[solution.matrix];
+        int& number = matrices[solution.matrix];
         if (number < 0) {
           number = static_cast<int>(table.matrices.size());
           table.matrices.push_back({matrix.kind, matrix.size, moved(matrix.entries)});
@@ -335,14 +336,14 @@ Program Recorder::selected(const std::vector<char>& wanted, const std::vector<in
       }
       n.a = static_cast<int>(table.solutions.size()) - 1;
     } else if (isOperation(n.op)) {
-      n.a = renumbered[at(n.a)];
-      if (n.b >= 0) n.b = renumbered[at(n.b)];
+      n.a = renumbered[n.a];
+      if (n.b >= 0) n.b = renumbered[n.b];
     }
-    renumbered[at(i)] = static_cast<int>(table.nodes.size());
+    renumbered[i] = static_cast<int>(table.nodes.size());
     table.nodes.push_back(n);
     program.invariant_.push_back(invariant);
   }
-  for (int output : outputs) program.outputs_.push_back(renumbered[at(output)]);
+  for (int output : outputs) program.outputs_.push_back(renumbered[output]);
   return program;
 }
 

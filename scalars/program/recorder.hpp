@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "scalars/index.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/program/program.hpp"
 
@@ -112,13 +111,13 @@ class Recorder {
   std::vector<int> append(const Program& program, const std::vector<int>& parameters,
                           const std::vector<int>& instead = {});
 
-  const Node& node(int i) const { return list_.nodes[detail::at(i)]; }
+  const Node& node(int i) const { return list_.nodes[i]; }
   /// The nodes and what they refer to.
   const detail::NodeTable& table() const { return list_; }
   int size() const { return static_cast<int>(list_.nodes.size()); }
   /// The value of a constant node.
-  const Interval& value(int node) const { return list_.constants[detail::at(this->node(node).a)]; }
-  detail::Signless signless(int node) const { return list_.signless[detail::at(node)]; }
+  const Interval& value(int node) const { return list_.constants[this->node(node).a]; }
+  detail::Signless signless(int node) const { return list_.signless[node]; }
   bool isConstant(int node) const { return this->node(node).op == Op::constant; }
   /// True if the node is the constant `number` and nothing else.
   bool isExactly(int node, double number) const;

@@ -29,8 +29,7 @@ std::vector<char> ofStates(const Program& f) {
   std::vector<char> result;
   for (std::size_t i = 0; i < f.nodes().size(); ++i) {
     bool does = f.nodes()[i].op == Op::state;
-    detail::forEachOperand(f.table(), static_cast<int>(i),
-                           [&](int operand) { does = does || result[at(operand)] != 0; });
+    detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) { does = does || result[operand] != 0; });
     result.push_back(static_cast<char>(does));
   }
   return result;
@@ -43,14 +42,14 @@ struct Argument {
 };
 
 Argument bareArgumentOf(const Program& f, int jump) {
-  Argument result{f.nodes()[at(jump)].a};
+  Argument result{f.nodes()[jump].a};
   for (;;) {
-    const Node& u = f.nodes()[at(result.node)];
+    const Node& u = f.nodes()[result.node];
     const auto signOf = [&](int node) {  // 0: not known
-      if (f.nodes()[at(node)].op == Op::recip) node = f.nodes()[at(node)].a;
-      const Node& of = f.nodes()[at(node)];
+      if (f.nodes()[node].op == Op::recip) node = f.nodes()[node].a;
+      const Node& of = f.nodes()[node];
       if (of.op != Op::constant) return 0.0;
-      const Interval& value = f.constants()[at(of.a)];
+      const Interval& value = f.constants()[of.a];
       return value.lower() > 0 ? 1.0 : value.upper() < 0 ? -1.0 : 0.0;
     };
     if (u.op == Op::neg)
@@ -84,24 +83,22 @@ Program withBareArguments(const Program& f, Op kind) {
   Recorder result(f.states(), f.parameters());
   std::vector<int> instead(f.nodes().size(), -1), outputs;
   const std::vector<int> plain = result.append(f);
-  const auto of = [&](int node) {
-    return kind == Op::abs ? result.abs(plain[at(node)]) : result.sign(plain[at(node)]);
-  };
+  const auto of = [&](int node) { return kind == Op::abs ? result.abs(plain[node]) : result.sign(plain[node]); };
   bool isNew = false;
   for (std::size_t i = 0; i < instead.size(); ++i) {
     if (f.nodes()[i].op != kind || moves[i] == 0) continue;
     int u = f.nodes()[i].a, factor = -1;
     bool isNegative = false;
     for (;;) {
-      const Node& node = f.nodes()[at(u)];
-      const bool isProduct = node.op == Op::mul && (moves[at(node.a)] == 0 || moves[at(node.b)] == 0);
+      const Node& node = f.nodes()[u];
+      const bool isProduct = node.op == Op::mul && (moves[node.a] == 0 || moves[node.b] == 0);
       if (node.op != Op::neg && !isProduct) break;
       isNegative = isNegative != (node.op == Op::neg);
       if (isProduct) {
-        const int more = of(moves[at(node.a)] == 0 ? node.a : node.b);
+        const int more = of(moves[node.a] == 0 ? node.a : node.b);
         factor = factor < 0 ? more : result.mul(factor, more);
       }
-      u = isProduct && moves[at(node.a)] == 0 ? node.b : node.a;
+      u = isProduct && moves[node.a] == 0 ? node.b : node.a;
     }
     if (factor < 0) continue;
     const int bare = result.mul(factor, of(u));
@@ -110,7 +107,7 @@ Program withBareArguments(const Program& f, Op kind) {
   }
   if (!isNew) return f;
   const std::vector<int> here = result.append(f, {}, instead);
-  for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : f.outputNodes()) outputs.push_back(here[output]);
   return result.finish(outputs);
 }
 
@@ -136,13 +133,13 @@ std::optional<Program> withKinksThatJump(const Program& f, const Program& g) {
     const Surface kink = surfaceOf(g, bareArgumentOf(g, static_cast<int>(i)).node);
     if (std::ranges::none_of(surfaces, [&](const Surface& surface) { return signOfRatio(kink, surface) != 0; }))
       continue;
-    const int u = plain[at(g.nodes()[i].a)];
+    const int u = plain[g.nodes()[i].a];
     instead[i] = result.mul(u, result.sign(u));
     isNew = true;
   }
   if (!isNew) return {};
   const std::vector<int> here = result.append(g, {}, instead);
-  for (const int output : g.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : g.outputNodes()) outputs.push_back(here[output]);
   return result.finish(outputs);
 }
 
@@ -169,7 +166,7 @@ Program withOneSignASurface(const Program& f) {
     double ratio = 0;
     std::size_t k = 0;
     for (; k < surfaces.size() && ratio == 0; ++k) ratio = signOfRatio(surface, surfaces[k]);
-    isNew = isNew || ratio != 0 || node != f.nodes()[at(jump)].a;
+    isNew = isNew || ratio != 0 || node != f.nodes()[jump].a;
     if (ratio == 0) surfaces.push_back(surface);
     of.emplace_back(ratio == 0 ? k : k - 1, by * (ratio == 0 ? 1 : ratio));
   }
@@ -181,12 +178,12 @@ Program withOneSignASurface(const Program& f) {
     here = result.append(f, {}, signs);
     for (std::size_t j = 0; j < jumps.size(); ++j) {
       const auto [surface, by] = of[j];
-      const int sign = result.sign(here[at(surfaces[surface].node)]);
-      signs[at(jumps[j])] = by > 0 ? sign : result.neg(sign);
+      const int sign = result.sign(here[surfaces[surface].node]);
+      signs[jumps[j]] = by > 0 ? sign : result.neg(sign);
     }
   }
   here = result.append(f, {}, signs);
-  for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : f.outputNodes()) outputs.push_back(here[output]);
   return result.finish(outputs);
 }
 
@@ -196,15 +193,15 @@ Program withSignsGiven(const Program& f) {
   const int n = f.states(), k = f.parameters();
   Recorder recorder(n, k + static_cast<int>(jumps.size()));
   std::vector<int> instead(f.nodes().size(), -1);
-  for (std::size_t j = 0; j < jumps.size(); ++j) instead[at(jumps[j])] = recorder.parameter(k + static_cast<int>(j));
+  for (std::size_t j = 0; j < jumps.size(); ++j) instead[jumps[j]] = recorder.parameter(k + static_cast<int>(j));
   const std::vector<int> here = recorder.append(f, {}, instead);
   std::vector<int> outputs, arguments;
   std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
   for (int i = 0; i < n; ++i) {
-    outputs.push_back(here[at(f.outputNodes()[at(i)])]);
+    outputs.push_back(here[f.outputNodes()[i]]);
     seeds.emplace_back(recorder.state(i), outputs.back());
   }
-  for (const int jump : jumps) arguments.push_back(here[at(f.nodes()[at(jump)].a)]);
+  for (const int jump : jumps) arguments.push_back(here[f.nodes()[jump].a]);
   const std::vector<int> rates = tangents(recorder, arguments, seeds);
   outputs.insert(outputs.end(), arguments.begin(), arguments.end());
   outputs.insert(outputs.end(), rates.begin(), rates.end());
@@ -230,21 +227,21 @@ OnlyProduct onlyProductOf(const Program& given, int signs, int parameter) {
     if (own.op == Op::parameter && own.a == parameter) node = static_cast<int>(i);
     ofSigns[i] = static_cast<char>(own.op == Op::parameter && own.a >= signs);
     detail::forEachOperand(given.table(), static_cast<int>(i), [&](int operand) {
-      ++uses[at(operand)];
-      user[at(operand)] = static_cast<int>(i);
-      ofSigns[i] |= ofSigns[at(operand)];
+      ++uses[operand];
+      user[operand] = static_cast<int>(i);
+      ofSigns[i] |= ofSigns[operand];
     });
   }
-  for (const int output : given.outputNodes()) ++uses[at(output)];
+  for (const int output : given.outputNodes()) ++uses[output];
   OnlyProduct result{node, {}};
-  while (result.node >= 0 && uses[at(result.node)] == 1 && user[at(result.node)] >= 0) {
-    const int next = user[at(result.node)];
-    const Node& product = given.nodes()[at(next)];
+  while (result.node >= 0 && uses[result.node] == 1 && user[result.node] >= 0) {
+    const int next = user[result.node];
+    const Node& product = given.nodes()[next];
     if (product.op == Op::neg) {
       result.isNegative = !result.isNegative;
     } else {
       const int other = product.a == result.node ? product.b : product.a;
-      if (product.op != Op::mul || ofSigns[at(other)] != 0) break;
+      if (product.op != Op::mul || ofSigns[other] != 0) break;
       result.factors.push_back(other);
     }
     result.node = next;
@@ -261,20 +258,20 @@ Program withHeldGiven(const Program& f, std::span<const char> held) {
   std::vector<int> instead(given.nodes().size(), -1);
   std::vector<OnlyProduct> products;
   for (int j = 0; j < jumps; ++j) {
-    if (held[at(j)] == 0) continue;
+    if (held[j] == 0) continue;
     products.push_back(onlyProductOf(given, k, k + j));
-    if (products.back().node >= 0) instead[at(products.back().node)] = recorder.parameter(k + j);
+    if (products.back().node >= 0) instead[products.back().node] = recorder.parameter(k + j);
   }
   const std::vector<int> here = recorder.append(given, {}, instead);
   std::vector<int> outputs, moves;
-  for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
-  for (int i = 0; i < n; ++i) moves.push_back(outputs[at(i)]);
-  for (int j = 0; j < jumps; ++j) moves.push_back(outputs[at(n + jumps + j)]);
+  for (const int output : given.outputNodes()) outputs.push_back(here[output]);
+  for (int i = 0; i < n; ++i) moves.push_back(outputs[i]);
+  for (int j = 0; j < jumps; ++j) moves.push_back(outputs[n + jumps + j]);
   auto product = products.begin();
   for (int j = 0; j < jumps; ++j) {
-    if (held[at(j)] == 0) continue;
+    if (held[j] == 0) continue;
     int factor = recorder.constant(product->isNegative ? -1.0 : 1.0);
-    for (const int other : product->factors) factor = recorder.mul(factor, here[at(other)]);
+    for (const int other : product->factors) factor = recorder.mul(factor, here[other]);
     outputs.push_back(factor);
     const std::vector<int> rise = tangents(recorder, moves, {{recorder.parameter(k + j), recorder.constant(1.0)}});
     outputs.insert(outputs.end(), rise.begin(), rise.end());
@@ -290,12 +287,12 @@ namespace {
 bool isPolynomialInSigns(const Program& f, bool anyPower) {
   std::vector<char> depends;
   const std::vector<char> moves = ofStates(f);
-  const auto of = [&](int node) { return node >= 0 && depends[at(node)] != 0; };
+  const auto of = [&](int node) { return node >= 0 && depends[node] != 0; };
   for (const Node& node : f.nodes()) {
-    bool does = node.op == Op::sign && moves[at(node.a)] != 0, isAllowed = !does || !of(node.a);
+    bool does = node.op == Op::sign && moves[node.a] != 0, isAllowed = !does || !of(node.a);
     if (node.op == Op::solution) {
-      const LinearSolution& solution = f.solutions()[at(node.a)];
-      for (const int entry : f.matrices()[at(solution.matrix)].entries) isAllowed = isAllowed && !of(entry);
+      const LinearSolution& solution = f.solutions()[node.a];
+      for (const int entry : f.matrices()[solution.matrix].entries) isAllowed = isAllowed && !of(entry);
       for (const int entry : solution.rightSide) does = does || of(entry);
     } else if (isOperation(node.op) && !does) {
       does = of(node.a) || of(node.b);
@@ -320,20 +317,19 @@ Program affineInSign(const Program& f) {
   std::vector<int> parameters;
   for (int i = 0; i < f.parameters(); ++i) parameters.push_back(recorder.parameter(i));
   const auto outputsWith = [&](double sign) {
-    parameters.resize(at(f.parameters()));
+    parameters.resize(f.parameters());
     parameters.push_back(recorder.constant(sign));
     const std::vector<int> here = recorder.append(given, parameters);
     std::vector<int> outputs;
-    for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
+    for (const int output : given.outputNodes()) outputs.push_back(here[output]);
     return outputs;
   };
   const std::vector<int> above = outputsWith(1), below = outputsWith(-1);
-  const int sign = recorder.sign(above[at(f.states())]), half = recorder.constant(0.5);
+  const int sign = recorder.sign(above[f.states()]), half = recorder.constant(0.5);
   std::vector<int> rates;
   for (int i = 0; i < f.states(); ++i) {
-    const int mean = recorder.mul(half, recorder.add(above[at(i)], below[at(i)]));
-    rates.push_back(
-        recorder.add(mean, recorder.mul(sign, recorder.mul(half, recorder.sub(above[at(i)], below[at(i)])))));
+    const int mean = recorder.mul(half, recorder.add(above[i], below[i]));
+    rates.push_back(recorder.add(mean, recorder.mul(sign, recorder.mul(half, recorder.sub(above[i], below[i])))));
   }
   return recorder.finish(rates);
 }
@@ -354,14 +350,14 @@ std::vector<SharedSign> sharedSigns(const Program& f, const Program& g) {
   std::vector<std::pair<Surface, double>> surfaces;
   for (const int jump : jumpsOf(f)) {
     const auto [node, by] = bareArgumentOf(f, jump);
-    surfaces.push_back({{ofF[at(node)], linearFormOf(f, node)}, by});
+    surfaces.push_back({{ofF[node], linearFormOf(f, node)}, by});
   }
   std::vector<SharedSign> shared;
   const std::vector<char> moves = ofStates(g);
   for (const int jump : jumpsOf(g)) {
-    if (moves[at(jump)] == 0) continue;
+    if (moves[jump] == 0) continue;
     const auto [node, by] = bareArgumentOf(g, jump);
-    const Surface own{ofG[at(node)], linearFormOf(g, node)};
+    const Surface own{ofG[node], linearFormOf(g, node)};
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       const auto& [surface, bySurface] = surfaces[k];
       const double ratio = signOfRatio(own, surface);
@@ -386,23 +382,21 @@ Program withSigns(Recorder& recorder, const std::vector<int>& signs, const Progr
   std::vector<int> parameters, instead(g.nodes().size(), -1), outputs;
   for (int i = 0; i < g.parameters(); ++i) parameters.push_back(recorder.parameter(i));
   for (const auto& [jump, which, by] : sharedSigns(f, g))
-    instead[at(jump)] = by > 0 ? signs[which] : recorder.neg(signs[which]);
+    instead[jump] = by > 0 ? signs[which] : recorder.neg(signs[which]);
   const std::vector<char> moves = ofStates(g), jumps = ofStates(f);
-  const bool mayHold = std::ranges::any_of(jumpsOf(f), [&](int jump) { return jumps[at(jump)] != 0; });
+  const bool mayHold = std::ranges::any_of(jumpsOf(f), [&](int jump) { return jumps[jump] != 0; });
   std::vector<int> others;
   for (const int jump : jumpsOf(g))
-    if (unknown == Unknown::anything && mayHold && moves[at(jump)] != 0 && instead[at(jump)] < 0)
-      others.push_back(jump);
+    if (unknown == Unknown::anything && mayHold && moves[jump] != 0 && instead[jump] < 0) others.push_back(jump);
   // With what may be on either side added to it; once more, for signs within arguments.
   for (int pass = 0; pass < 2 && !others.empty(); ++pass) {
     constexpr double tiny = 0x1p-1000;
     const int eitherSide = recorder.constant(Interval(-tiny, tiny));
     const std::vector<int> here = recorder.append(g, parameters, instead);
-    for (const int jump : others)
-      instead[at(jump)] = recorder.sign(recorder.add(here[at(g.nodes()[at(jump)].a)], eitherSide));
+    for (const int jump : others) instead[jump] = recorder.sign(recorder.add(here[g.nodes()[jump].a], eitherSide));
   }
   const std::vector<int> here = recorder.append(g, parameters, instead);
-  for (const int output : g.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : g.outputNodes()) outputs.push_back(here[output]);
   return recorder.finish(outputs);
 }
 
@@ -423,15 +417,14 @@ Program outputsWithOpenSignsGiven(const Program& f, const Program& g, std::span<
   for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));
   const auto first = sided.outputNodes().end() - jumps;
   for (int j = 0; j < jumps; ++j) {  // an open sign is one of the sided program's, or the negative
-    if (sides[at(j)] != Side::open) continue;
+    if (sides[j] != Side::open) continue;
     const int node = first[j], given = recorder.parameter(k + j);
-    const Node& sign = sided.nodes()[at(node)];
-    if (sign.op == Op::neg && instead[at(sign.a)] < 0) instead[at(sign.a)] = recorder.neg(given);
-    if (sign.op == Op::sign && instead[at(node)] < 0) instead[at(node)] = given;
+    const Node& sign = sided.nodes()[node];
+    if (sign.op == Op::neg && instead[sign.a] < 0) instead[sign.a] = recorder.neg(given);
+    if (sign.op == Op::sign && instead[node] < 0) instead[node] = given;
   }
   const std::vector<int> here = recorder.append(sided, parameters, instead);
-  for (int j = 0; j < jumps; ++j)
-    signs.push_back(sides[at(j)] == Side::open ? recorder.parameter(k + j) : here[at(first[j])]);
+  for (int j = 0; j < jumps; ++j) signs.push_back(sides[j] == Side::open ? recorder.parameter(k + j) : here[first[j]]);
   return withSigns(recorder, signs, f, g, Unknown::anything);
 }
 
@@ -466,7 +459,7 @@ class SidedMotion {
         instead_(given_.nodes().size(), -1) {
     for (int i = 0; i < k_; ++i) parameters_.push_back(recorder_.parameter(i));
     for (int j = 0; j < jumps_; ++j) {
-      const Side side = sides[at(j)];
+      const Side side = sides[j];
       const bool isFixed = side != Side::held && side != Side::open;
       if (side == Side::held) held_.push_back(j);
       parameters_.push_back(recorder_.constant(isFixed                           ? static_cast<double>(side)
@@ -474,7 +467,7 @@ class SidedMotion {
                                                                                  : -1.0));
     }
     // What is held is zero, wherever it stands.
-    for (const int j : held_) instead_[at(given_.outputNodes()[at(n_ + j)])] = recorder_.constant(0.0);
+    for (const int j : held_) instead_[given_.outputNodes()[n_ + j]] = recorder_.constant(0.0);
     outputs_ = outputsWith(parameters_);
   }
 
@@ -482,7 +475,7 @@ class SidedMotion {
     giveOpen();
     hold();
     followForms();
-    outputs_.resize(at(n_ + jumps_));
+    outputs_.resize(n_ + jumps_);
     outputs_.insert(outputs_.end(), parameters_.begin() + k_, parameters_.end());
     return recorder_.finish(outputs_);
   }
@@ -497,7 +490,7 @@ class SidedMotion {
   std::vector<int> outputsWith(const std::vector<int>& values) {
     const std::vector<int> here = recorder_.append(given_, values, instead_);
     std::vector<int> outputs;
-    for (const int output : given_.outputNodes()) outputs.push_back(here[at(output)]);
+    for (const int output : given_.outputNodes()) outputs.push_back(here[output]);
     return outputs;
   }
 
@@ -511,7 +504,7 @@ class SidedMotion {
   void giveOpen() {
     if (std::ranges::find(sides_, Side::open) == sides_.end()) return;
     for (int j = 0; j < jumps_; ++j)
-      if (sides_[at(j)] == Side::open) parameters_[at(k_ + j)] = recorder_.sign(outputs_[at(n_ + j)]);
+      if (sides_[j] == Side::open) parameters_[k_ + j] = recorder_.sign(outputs_[n_ + j]);
     const std::vector<int> arguments(outputs_.begin() + n_, outputs_.begin() + n_ + jumps_);
     outputs_ = outputsWith(parameters_);
     if (!std::equal(arguments.begin(), arguments.end(), outputs_.begin() + n_))
@@ -531,7 +524,7 @@ class SidedMotion {
         continue;
       }
       std::vector<int> values = parameters_;
-      values[at(k_ + j)] = recorder_.constant(1.0);
+      values[k_ + j] = recorder_.constant(1.0);
       const std::vector<int> above = moved(outputsWith(values)), below = moved(outputs_);
       steps.emplace_back();
       for (std::size_t o = 0; o < above.size(); ++o) steps.back().push_back(recorder_.sub(above[o], below[o]));
@@ -544,12 +537,12 @@ class SidedMotion {
     const std::vector<int> from = moved(outputs_);
     if (held_.empty()) return {};
     if (held_.size() == 1)
-      return {recorder_.neg(recorder_.mul(from[at(n_ + held_[0])], recorder_.recip(steps[0][at(n_ + held_[0])])))};
+      return {recorder_.neg(recorder_.mul(from[n_ + held_[0]], recorder_.recip(steps[0][n_ + held_[0]])))};
     LinearMatrix matrix{MatrixKind::general, static_cast<int>(held_.size()), {}};
     std::vector<int> rightSide;
     for (const int j : held_) {
-      for (const std::vector<int>& step : steps) matrix.entries.push_back(step[at(n_ + j)]);
-      rightSide.push_back(recorder_.neg(from[at(n_ + j)]));
+      for (const std::vector<int>& step : steps) matrix.entries.push_back(step[n_ + j]);
+      rightSide.push_back(recorder_.neg(from[n_ + j]));
     }
     return recorder_.solve(recorder_.matrix(std::move(matrix)), false, rightSide);
   }
@@ -561,7 +554,7 @@ class SidedMotion {
     for (std::size_t h = 0; h < held_.size(); ++h) {
       for (std::size_t o = 0; o < at(n_); ++o)
         outputs_[o] = recorder_.add(outputs_[o], recorder_.mul(shares[h], steps[h][o]));
-      parameters_[at(k_ + held_[h])] =
+      parameters_[k_ + held_[h]] =
           isAffine_ ? recorder_.mul(shares[h], recorder_.recip(factors[h]))
                     : recorder_.sub(recorder_.mul(recorder_.constant(2.0), shares[h]), recorder_.constant(1.0));
     }
@@ -572,16 +565,16 @@ class SidedMotion {
     const std::vector<int> signs = jumpsOf(f_);
     std::vector<LinearForm> forms;
     for (const int j : held_)
-      if (const auto form = linearFormOf(f_, f_.nodes()[at(signs[at(j)])].a)) forms.push_back(*form);
+      if (const auto form = linearFormOf(f_, f_.nodes()[signs[j]].a)) forms.push_back(*form);
     std::vector<const LinearForm*> all;
     for (const LinearForm& form : forms) all.push_back(&form);
     for (const auto& [which, state] : statesThatFollow(all)) {
       const std::vector<double>& c = forms[which].states;
       int sum = recorder_.constant(0.0);
       for (int i = 0; i < n_; ++i)
-        if (c[at(i)] != 0 && i != state)
-          sum = recorder_.sub(sum, recorder_.mul(recorder_.constant(c[at(i)] / c[at(state)]), outputs_[at(i)]));
-      outputs_[at(state)] = sum;
+        if (c[i] != 0 && i != state)
+          sum = recorder_.sub(sum, recorder_.mul(recorder_.constant(c[i] / c[state]), outputs_[i]));
+      outputs_[state] = sum;
     }
   }
 

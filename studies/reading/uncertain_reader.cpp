@@ -102,7 +102,7 @@ class UncertainReader {
       };
       const auto first = std::ranges::find_if(study_.uncertain, varies);
       if (first == study_.uncertain.end()) continue;
-      const toml::table& table = *tables_[static_cast<std::size_t>(first - study_.uncertain.begin())];
+      const toml::table& table = *tables_[first - study_.uncertain.begin()];
       const toml::node* interval = table.get("interval");
       const toml::node& place = interval != nullptr ? *interval : *table.get("quantity");
       if (fatal != anywhere.end())

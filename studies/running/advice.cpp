@@ -114,8 +114,7 @@ class Trials {
     Box box = run_.machine.box;
     for (const std::size_t q : quantities) {
       const Uncertain& u = run_.study.uncertain[q].uncertain;
-      box[static_cast<std::size_t>(run_.machine.motion.slot[q])] =
-          Interval(u.nominal) + Interval(factor) * (u.range - Interval(u.nominal));
+      box[run_.machine.motion.slot[q]] = Interval(u.nominal) + Interval(factor) * (u.range - Interval(u.nominal));
     }
     return tries(box, options_) == true;
   }

@@ -14,8 +14,8 @@ std::vector<Fuzzy> fuzzyNumbers(const Machine& machine) {
   std::vector<Fuzzy> numbers(machine.box.begin(), machine.box.end());
   for (const int slot : machine.motion.slot) {
     std::vector<Interval> cuts;
-    for (const Box& level : machine.levels) cuts.push_back(level[static_cast<std::size_t>(slot)]);
-    numbers[static_cast<std::size_t>(slot)] = Fuzzy(std::move(cuts));
+    for (const Box& level : machine.levels) cuts.push_back(level[slot]);
+    numbers[slot] = Fuzzy(std::move(cuts));
   }
   return numbers;
 }

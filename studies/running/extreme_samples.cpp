@@ -74,8 +74,7 @@ std::vector<std::vector<double>> extremePoints(const Study& study, const Enclosu
     if (points.size() == most) break;
     std::vector<double> values;
     for (std::size_t q = 0; q < motion.uncertain.size(); ++q)
-      values.push_back(study.uncertain[q].varies ? motion.uncertain[q].nominal
-                                                 : (*candidate.values)[static_cast<std::size_t>(motion.slot[q])]);
+      values.push_back(study.uncertain[q].varies ? motion.uncertain[q].nominal : (*candidate.values)[motion.slot[q]]);
     const auto isAlike = [&](const std::vector<double>& other) {
       for (std::size_t q = 0; q < values.size(); ++q)
         if (std::fabs(values[q] - other[q]) > 0.5 * alike * width(motion.uncertain[q].range)) return false;

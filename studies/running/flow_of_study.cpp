@@ -24,7 +24,7 @@ Program programOf(const Program& g, const std::vector<int>& outputs, std::vector
   std::vector<int> nodes;
   for (const int output : outputs) {
     numbers.push_back(static_cast<int>(nodes.size()));
-    nodes.push_back(g.outputNodes()[static_cast<std::size_t>(output)]);
+    nodes.push_back(g.outputNodes()[output]);
   }
   return Recorder(g).finish(nodes);
 }

@@ -108,11 +108,10 @@ class BoxValues {
 /// Whether an output depends on a parameter that varies in time: then it may move without its velocity.
 bool mayJump(const Program& program, const std::vector<VaryingParameter>& varying) {
   std::vector<char> isUsed(program.nodes().size(), 0);
-  for (const int output : program.outputNodes()) isUsed[static_cast<std::size_t>(output)] = 1;
+  for (const int output : program.outputNodes()) isUsed[output] = 1;
   for (std::size_t i = isUsed.size(); i-- > 0;)
     if (isUsed[i] != 0)
-      detail::forEachOperand(program.table(), static_cast<int>(i),
-                             [&](int operand) { isUsed[static_cast<std::size_t>(operand)] = 1; });
+      detail::forEachOperand(program.table(), static_cast<int>(i), [&](int operand) { isUsed[operand] = 1; });
   return std::ranges::any_of(varying, [&](const VaryingParameter& of) {
     for (std::size_t i = 0; i < isUsed.size(); ++i)
       if (isUsed[i] != 0 && program.nodes()[i].op == Op::parameter && program.nodes()[i].a == of.parameter) return true;

@@ -124,10 +124,9 @@ double metUntil(const Machine& machine, const FlowModels& models, const Requirem
   if (!requirement.demand.isAlways || models.at.size() <= question.from) return RequirementResult::unknown;
   std::vector<char> isOwned(static_cast<std::size_t>(models.symbols), 0);
   for (std::size_t q = 0; q < study.uncertain.size(); ++q)
-    if (const int symbol = models.components[static_cast<std::size_t>(machine.motion.slot[q])].symbol; symbol >= 0)
-      isOwned[static_cast<std::size_t>(symbol)] = 1;
+    if (const int symbol = models.components[machine.motion.slot[q]].symbol; symbol >= 0) isOwned[symbol] = 1;
   for (int l = 0; l < models.symbols; ++l)
-    if (isOwned[static_cast<std::size_t>(l)] == 0) question.besides.push_back(l);
+    if (isOwned[l] == 0) question.besides.push_back(l);
   std::size_t met = question.from,
               open = question.until + 1;  // it is met before the one, and not known up to the other
   const auto isMetUntil = [&](std::size_t row) {
@@ -308,8 +307,7 @@ class RequirementProof {
       quantities.push_back({of.slot, &study_.uncertain[of.number].uncertain});
     RequirementOptions options;
     std::vector<FlowSymbol> symbols;
-    for (const CellQuantity& quantity : quantities)
-      symbols.push_back(models.components[static_cast<std::size_t>(quantity.component)]);
+    for (const CellQuantity& quantity : quantities) symbols.push_back(models.components[quantity.component]);
     options.masses = &masses_.in(models.symbols, symbols);
     options.mostWork = work;
     options.cancelled = run_.watch.stop();

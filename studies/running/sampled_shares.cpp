@@ -36,8 +36,8 @@ double excessOf(const SampledShares& shares, const ProvedDistribution& proved, d
   for (std::size_t i = 0; i < shares.value.size(); ++i) {
     const auto below = std::ranges::lower_bound(proved.value, shares.value[i] - error) - proved.value.begin();
     const auto above = std::ranges::lower_bound(proved.value, shares.value[i] + error) - proved.value.begin();
-    const double least = below == 0 ? 0 : proved.lower[static_cast<std::size_t>(below - 1)];
-    const double most = above == std::ssize(proved.value) ? 1 : proved.upper[static_cast<std::size_t>(above)];
+    const double least = below == 0 ? 0 : proved.lower[below - 1];
+    const double most = above == std::ssize(proved.value) ? 1 : proved.upper[above];
     excess = std::max({excess, least - shares.below[i], shares.below[i] - most});
   }
   return excess;

@@ -41,7 +41,7 @@ UncertainMotion withSwitchingOf(const Results& results, UncertainMotion motion) 
     sample = entries.number[i];
     const auto of = std::ranges::find(switching.quantities, static_cast<std::size_t>(entries.quantity[i]));
     check(of != switching.quantities.end());
-    SwitchingCourse& course = switching.courses.back()[static_cast<std::size_t>(of - switching.quantities.begin())];
+    SwitchingCourse& course = switching.courses.back()[of - switching.quantities.begin()];
     check(course.from.empty() ? entries.from[i] == 0 : entries.from[i] > course.from.back());
     check(contains(motion.uncertain[*of].range, entries.value[i]));
     course.from.push_back(entries.from[i]);
@@ -67,7 +67,7 @@ void moveSamples(const Machine& machine, SampleBlock& block) {
   for (std::size_t j = 0; j < motion.uncertain.size(); ++j) {
     std::vector<double> values;
     for (std::size_t i = 0; i < block.size(); ++i) values.push_back(block.values(i)[j]);
-    numbers[static_cast<std::size_t>(motion.slot[j])] = Samples(std::move(values));
+    numbers[motion.slot[j]] = Samples(std::move(values));
   }
   const std::vector<Samples> moved = assembledOutputs(machine, numbers);
   for (std::size_t j = 0; j < moved.size(); ++j)

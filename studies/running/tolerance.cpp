@@ -79,8 +79,7 @@ class Finder {
   /// A flow of the nominal values alone tells.
   std::string violatedAtNominal() const {
     Box box = machine_.box;
-    for (const auto [number, slot] : machine_.constants)
-      box[static_cast<std::size_t>(slot)] = study_.uncertain[number].uncertain.nominal;
+    for (const auto [number, slot] : machine_.constants) box[slot] = study_.uncertain[number].uncertain.nominal;
     const auto models = study_.analysis == Study::Analysis::kinematics
                             ? modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_), study_.flow.degree,
                                          options_.cancelled)
@@ -100,7 +99,7 @@ class Finder {
     for (std::size_t q = 0; q < study_.uncertain.size(); ++q) {
       Uncertain& u = uncertain.emplace_back(study_.uncertain[q].uncertain);
       if (deviate[q] != 0) u.range = scaled(q, factor);
-      box[static_cast<std::size_t>(machine_.motion.slot[q])] = u.range;
+      box[machine_.motion.slot[q]] = u.range;
     }
     std::vector<CellQuantity> quantities;
     std::vector<char> deviates;

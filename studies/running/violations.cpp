@@ -96,7 +96,7 @@ class ThinFlows {
       }
       // Where an interval is no wider than roundings, nobody knows which numbers are meant: all that may be.
       const bool isNarrow = !quantity.varies && isEmpty(quantity.uncertain.inside());
-      thin.box[static_cast<std::size_t>(motion_.slot[q])] = isNarrow ? quantity.uncertain.range : Interval(values[q]);
+      thin.box[motion_.slot[q]] = isNarrow ? quantity.uncertain.range : Interval(values[q]);
       if (!quantity.varies) continue;
       // Ends are rounded outward from decimals: the course keeps to what lies inside.
       VaryingQuantity& of = courses.emplace_back(run_.machine.courses[course]);

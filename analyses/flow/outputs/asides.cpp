@@ -26,8 +26,8 @@ std::vector<Interval> FlowAsides::enclose(double t, const FlowPoint& point, cons
                                           const std::vector<Embedded>& parameters) {
   std::vector<double> polynomial, away;
   for (int i = 0; i < values_.states(); ++i) {
-    polynomial.assign(at(layout_->count()), 0.0);
-    for (std::size_t m = 0; m < place_.size(); ++m) polynomial[at(place_[m])] = point.p[at(i) * place_.size() + m];
+    polynomial.assign(layout_->count(), 0.0);
+    for (std::size_t m = 0; m < place_.size(); ++m) polynomial[place_[m]] = point.p[at(i) * place_.size() + m];
     series_.setState(i, polynomial.data());
     away.push_back((point.radius[i] + std::fabs(point.low[i])) * bounds::up);
   }
@@ -37,13 +37,13 @@ std::vector<Interval> FlowAsides::enclose(double t, const FlowPoint& point, cons
   // The first bound of values that jump says where they may.
   const bool isBounded = series_.tabulate(1.0) && (!series_.kinks().hasJumps() || series_.bound(away.data(), true)) &&
                          series_.bound(away.data(), true);
-  std::vector<Interval> found(at(values_.outputs()), Interval::entire());
+  std::vector<Interval> found(values_.outputs(), Interval::entire());
   const Box whole(at(layout_->symbols()), Interval(-1.0, 1.0));
   constexpr double tolerance = 1e-3;  // of what is shown, not compared
   for (std::size_t o = 0; isBounded && o < found.size(); ++o) {
     const int node = series_.outputNode(static_cast<int>(o));
     const double radius = (series_.rho0(node) + series_.rho1(node)) * bounds::up;
-    for (int g = 0; g < layout_->count(); ++g) polynomial[at(g)] = series_.series(node)[g * series_.stride()];
+    for (int g = 0; g < layout_->count(); ++g) polynomial[g] = series_.series(node)[g * series_.stride()];
     if (std::isfinite(radius)) found[o] = inflated(range_(polynomial.data(), whole, tolerance), radius);
   }
   if (!isBounded) series_.clear();

@@ -4,15 +4,12 @@
 #include <algorithm>
 
 #include "analyses/flow/outputs/plain_outputs.hpp"
-#include "scalars/index.hpp"
 #include "scalars/program/angles.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/program/recorder.hpp"
 #include "scalars/program/sides.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 MeanValueOutputs::MeanValueOutputs(const Program& g) {
   for (const int output : g.outputNodes()) {
@@ -34,7 +31,7 @@ MeanValueOutputs::MeanValueOutputs(const Program& g) {
 
 Interval MeanValueOutputs::over(int output, const Interval& t, const std::vector<Interval>& states,
                                 const std::vector<Interval>& parameters) {
-  std::optional<Output>& of = outputs_[at(output)];
+  std::optional<Output>& of = outputs_[output];
   if (!of) return Interval::entire();
   std::vector<Interval> inputs{t};
   inputs.insert(inputs.end(), states.begin(), states.end());

@@ -18,7 +18,7 @@ using detail::at;
 
 namespace {
 
-Program alone(const Program& g, int output) { return Recorder(g).finish({g.outputNodes()[at(output)]}); }
+Program alone(const Program& g, int output) { return Recorder(g).finish({g.outputNodes()[output]}); }
 
 std::vector<int> placesOf(const Monomials& monomials, const Monomials& among) {
   std::vector<int> places;
@@ -45,8 +45,8 @@ FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> mono
       place_(placesOf(*ofStates_, *layout_)),
       plain_(g) {
   series_.setVarying(varying_);
-  polynomial_.assign(at(outputs_ * monomials_), 0.0);
-  radius_.assign(at(outputs_), 0.0);
+  polynomial_.assign(outputs_ * monomials_, 0.0);
+  radius_.assign(outputs_, 0.0);
   driven_ = radius_;
 }
 
@@ -57,11 +57,11 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
     for (int o = 0; o < outputs_; ++o)
       apart_.emplace_back(alone(g_, o), layout_, ofStates_, varying_, cancelled_, signs_);
   for (int o = 0; o < outputs_; ++o) {
-    FlowOutputs& own = apart_[at(o)];
+    FlowOutputs& own = apart_[o];
     own.evaluate(t, point, R, parameters);
-    radius_[at(o)] = own.radius(0);
-    driven_[at(o)] = own.driven(0);
-    std::copy_n(own.polynomial(0), monomials_, &polynomial_[at(o * monomials_)]);
+    radius_[o] = own.radius(0);
+    driven_[o] = own.driven(0);
+    std::copy_n(own.polynomial(0), monomials_, &polynomial_[o * monomials_]);
   }
 }
 
@@ -69,17 +69,17 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
 /// what is kept, with so much more that is loose.
 void FlowOutputs::setStates(const FlowPoint& point, std::vector<double>& radius, std::vector<double>& loose) {
   for (int i = 0; i < n_; ++i) {
-    state_.assign(at(monomials_), 0.0);
+    state_.assign(monomials_, 0.0);
     double dropped = 0;
     for (std::size_t m = 0; m < place_.size(); ++m) {
       const double coefficient = point.p[at(i) * place_.size() + m];
       if (place_[m] < 0)
         dropped += std::fabs(coefficient);
       else
-        state_[at(place_[m])] = coefficient;
+        state_[place_[m]] = coefficient;
     }
     for (auto* bound : {&radius, &loose})
-      if (dropped > 0) (*bound)[at(i)] = ((*bound)[at(i)] + dropped) * bounds::up;
+      if (dropped > 0) (*bound)[i] = ((*bound)[i] + dropped) * bounds::up;
     series_.setState(i, state_.data());
   }
 }
@@ -103,7 +103,7 @@ void FlowOutputs::countSigns(const std::vector<Embedded>& parameters, const std:
   const bool isBounded = series_.bound(nullptr, true);
   for (int o = 0; o < outputs_ && isBounded; ++o) {
     const int node = series_.outputNode(o);
-    driven_[at(o)] = std::max(0.0, along[at(o)] - series_.rho0(node) - series_.rho1(node));
+    driven_[o] = std::max(0.0, along[o] - series_.rho0(node) - series_.rho1(node));
   }
   give(true);
 }
@@ -112,19 +112,19 @@ void FlowOutputs::countSigns(const std::vector<Embedded>& parameters, const std:
 /// for generators. Adds that to `sums`; returns G₀, all outputs' rows.
 std::vector<double> FlowOutputs::addBeside(const FlowPoint& point, const std::vector<double>& R,
                                            const std::vector<double>& loose, std::vector<double>& sums) {
-  std::vector<double> centre(at(outputs_ * n_));
+  std::vector<double> centre(outputs_ * n_);
   for (int o = 0; o < outputs_; ++o) {
-    double& sum = sums[at(o)];
+    double& sum = sums[o];
     double* G = centre.data() + at(o * n_);
-    std::vector<double> spread(at(n_));
+    std::vector<double> spread(n_);
     for (int k = 0; k < n_; ++k) {
       const int node = series_.outputNode(outputs_ + o * n_ + k);
       G[k] = series_.series(node)[0];
-      spread[at(k)] =
+      spread[k] =
           (series_.norm(node) - std::fabs(G[k]) * bounds::down + series_.rho0(node) + series_.rho1(node)) * bounds::up;
-      const double slope = std::fabs(G[k]) + spread[at(k)];
-      sum += slope * (loose[at(k)] + point.beyond[k]);
-      driven_[at(o)] += slope * point.known[k];
+      const double slope = std::fabs(G[k]) + spread[k];
+      sum += slope * (loose[k] + point.beyond[k]);
+      driven_[o] += slope * point.known[k];
     }
     for (int j = 0; j < n_; ++j) {
       double along0 = 0, size = 0, wide = 0, rest = 0;
@@ -132,11 +132,11 @@ std::vector<double> FlowOutputs::addBeside(const FlowPoint& point, const std::ve
         const double psi0 = point.psi[k * n_ + j];
         along0 += G[k] * psi0;
         size += std::fabs(G[k]) * point.psiSum[k * n_ + j];
-        wide += spread[at(k)] * point.psiSum[k * n_ + j];
+        wide += spread[k] * point.psiSum[k * n_ + j];
         rest += std::fabs(G[k]) * (point.psiSum[k * n_ + j] - std::fabs(psi0) * bounds::down);
       }
-      sum += std::fabs(along0) * R[at(j)] + ((2 * n_ + 4) * bounds::unit * size + wide) * point.total[j] +
-             rest * point.ofR[j];
+      sum +=
+          std::fabs(along0) * R[j] + ((2 * n_ + 4) * bounds::unit * size + wide) * point.total[j] + rest * point.ofR[j];
     }
   }
   return centre;
@@ -149,7 +149,7 @@ void FlowOutputs::addGenerators(const FlowPoint& point, const std::vector<double
   kernels::addProductSizes(centre.data(), outputs_, n_, point.zonotope.data(), count(point.ofErrors), sums.data());
   if (point.zonotope.size() <= point.ofErrors) return;
   const auto along0 = [&](const double* columns, std::size_t numbers) {  // [column][output]
-    std::vector<double> result(at(count(numbers) * outputs_));
+    std::vector<double> result(count(numbers) * outputs_);
     kernels::multiplyColumns({{0, 0, 0}}, centre.data(), outputs_, n_, columns, count(numbers), result.data());
     return result;
   };
@@ -158,8 +158,8 @@ void FlowOutputs::addGenerators(const FlowPoint& point, const std::vector<double
   const std::vector<double> own = along0(&point.zonotope[point.ofErrors], point.zonotope.size() - point.ofErrors);
   for (int o = 0; o < outputs_; ++o) {
     const double driven = drivenRadius(own, ofXi, at(o), at(outputs_)) * bounds::up;
-    driven_[at(o)] += driven;
-    sums[at(o)] += driven;
+    driven_[o] += driven;
+    sums[o] += driven;
   }
 }
 
@@ -181,25 +181,25 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
     series_.clear();
     return false;
   }
-  std::vector<double> along(at(outputs_));
+  std::vector<double> along(outputs_);
   for (int o = 0; o < outputs_; ++o) {
     for (int g = 0; g < monomials_; ++g)
-      polynomial_[at(o * monomials_ + g)] = series_.series(series_.outputNode(o))[g * series_.stride()];
-    along[at(o)] = alongOf(o);
-    driven_[at(o)] = 0;
+      polynomial_[o * monomials_ + g] = series_.series(series_.outputNode(o))[g * series_.stride()];
+    along[o] = alongOf(o);
+    driven_[o] = 0;
   }
   countSigns(parameters, along);
   if (!varying_.empty()) {  // inputs enter outputs themselves: |g(p, w) - g(p, centre)|
-    const std::vector<double> none(at(n_), 0.0);
+    const std::vector<double> none(n_, 0.0);
     if (!series_.bound(none.data(), true)) return false;
     for (int o = 0; o < outputs_; ++o) {
-      driven_[at(o)] += std::max(0.0, alongOf(o) - along[at(o)]);
-      along[at(o)] = std::max(along[at(o)], alongOf(o));
+      driven_[o] += std::max(0.0, alongOf(o) - along[o]);
+      along[o] = std::max(along[o], alongOf(o));
     }
   }
   if (!series_.bound(radius.data(), false)) return false;
   addGenerators(point, addBeside(point, R, loose, along), along);
-  for (int o = 0; o < outputs_; ++o) radius_[at(o)] = along[at(o)] * bounds::up;
+  for (int o = 0; o < outputs_; ++o) radius_[o] = along[o] * bounds::up;
   return true;
 }
 
@@ -228,9 +228,9 @@ FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monom
 /// Monomials that the outputs have besides are 0, those that they do not have are left out.
 void FlowOutputChords::setState(int i, const double* series, int stride) {
   if (layout_->count() == ofStates_->count()) return series_.setStateSeries(i, series, stride);
-  stateRows_.assign(at(layout_->count() * stride), 0.0);
+  stateRows_.assign(layout_->count() * stride, 0.0);
   for (std::size_t m = 0; m < place_.size(); ++m)
-    if (place_[m] >= 0) std::copy_n(&series[m * at(stride)], stride, &stateRows_[at(place_[m] * stride)]);
+    if (place_[m] >= 0) std::copy_n(&series[m * at(stride)], stride, &stateRows_[place_[m] * stride]);
   series_.setStateSeries(i, stateRows_.data(), stride);
 }
 
@@ -241,7 +241,7 @@ FlowOutputChords::Part FlowOutputChords::partOf(const FlowStepper& stepper, doub
   const PolynomialSeries& states = stepper.series();
   constexpr double mostOfStep = 0.75;  // θ of a part stays below 1
   Part part;
-  part.rounding.assign(at(n_), 0.0);
+  part.rounding.assign(n_, 0.0);
   if (!(to - from <= mostOfStep * stepper.h())) {
     part.to = stepper.h();
     part.theta = stepper.theta();
@@ -257,16 +257,16 @@ FlowOutputChords::Part FlowOutputChords::partOf(const FlowStepper& stepper, doub
     part.moved.insert(part.moved.end(), states.series(i), states.series(i) + at(count * stride));
     double size = 0;
     for (int g = 0; g < count; ++g) {
-      double* c = &part.moved[at((i * count + g) * stride)];
+      double* c = &part.moved[(i * count + g) * stride];
       double sum = 0;
       for (int j = order_; j-- > 0;) sum = sum * end + std::fabs(c[j]);
       size += sum;
       for (int k = 0; k + 1 < order_; ++k)
         for (int j = order_ - 1; j-- > k;) c[j] += a * c[j + 1];
     }
-    part.rounding[at(i)] = ((2 * order_ + 2) * bounds::unit * size + bounds::tiny) * bounds::up;
+    part.rounding[i] = ((2 * order_ + 2) * bounds::unit * size + bounds::tiny) * bounds::up;
   }
-  for (int i = 0; i < n_; ++i) part.states.push_back(&part.moved[at(i * count * stride)]);
+  for (int i = 0; i < n_; ++i) part.states.push_back(&part.moved[i * count * stride]);
   return part;
 }
 
@@ -276,7 +276,7 @@ int FlowOutputChords::orderFor(const FlowStepper& stepper, const Part& part, std
   const int stride = stepper.series().stride(), count = stepper.series().count();
   const auto norm = [&](int i, int order, int from) {
     double sum = 0;
-    for (int g = from; g < count; ++g) sum += std::fabs(part.states[at(i)][g * stride + order]);
+    for (int g = from; g < count; ++g) sum += std::fabs(part.states[i][g * stride + order]);
     return sum * std::pow(part.theta, order);
   };
   // What time itself moves is followed further than the states tell.
@@ -291,15 +291,15 @@ int FlowOutputChords::orderFor(const FlowStepper& stepper, const Part& part, std
   }
   dropped = part.rounding;
   for (int i = 0; i < n_; ++i) {
-    for (int k = order; k < order_; ++k) dropped[at(i)] += norm(i, k, 0) * bounds::up;
+    for (int k = order; k < order_; ++k) dropped[i] += norm(i, k, 0) * bounds::up;
     double sum = 0;
     for (int g = 0; g < count; ++g) {
       double ofOne = 0;
-      for (int k = place_[at(g)] < 0 ? order : 0; k-- > 0;)
-        ofOne = ofOne * part.theta + std::fabs(part.states[at(i)][g * stride + k]);
+      for (int k = place_[g] < 0 ? order : 0; k-- > 0;)
+        ofOne = ofOne * part.theta + std::fabs(part.states[i][g * stride + k]);
       sum += ofOne;
     }
-    dropped[at(i)] += sum * bounds::up;
+    dropped[i] += sum * bounds::up;
   }
   return order;
 }
@@ -332,13 +332,13 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const
   std::fill(rest_.begin(), rest_.end(), infinite);
   std::vector<double> dropped;
   series_.setOrder(orderFor(stepper, part, dropped));
-  for (int i = 0; i < n_; ++i) setState(i, part.states[at(i)], states.stride());
+  for (int i = 0; i < n_; ++i) setState(i, part.states[i], states.stride());
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.kinks().forgetCrossings();
   timeKinks_.giveSides(parameters, t0 + part.from, t0 + part.to, series_);
   series_.compute(t0 + part.from, scale_);  // exact: docs/flow.md, "Time"
-  std::vector<double> own(at(outputs_)), tube(at(n_));
-  for (int i = 0; i < n_; ++i) tube[at(i)] = (stepper.tubeBound(i) + dropped[at(i)]) * bounds::up;
+  std::vector<double> own(outputs_), tube(at(n_));
+  for (int i = 0; i < n_; ++i) tube[i] = (stepper.tubeBound(i) + dropped[i]) * bounds::up;
   series_.kinks().forgetJumps();
   if (!series_.tabulate(theta) || (series_.kinks().hasJumps() && !series_.bound(tube.data(), true)) ||
       !series_.bound(dropped.data(), true)) {
@@ -347,31 +347,30 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const
   }
   for (int o = 0; o < outputs_; ++o) {
     const int node = series_.outputNode(o);
-    own[at(o)] = series_.rho0(node) + series_.rho1(node);
-    second_[at(o)] = series_.derivativeNorm(node, 2, theta);
-    third_[at(o)] = series_.derivativeNorm(node, 3, theta);
+    own[o] = series_.rho0(node) + series_.rho1(node);
+    second_[o] = series_.derivativeNorm(node, 2, theta);
+    third_[o] = series_.derivativeNorm(node, 3, theta);
   }
   if (!series_.bound(tube.data(), false)) return false;
   // Σ_j |Ψ^{(k)}| total_j and all of |x - p|, for every state, over the whole step.
-  std::vector<double> moved(at(3 * n_), 0.0), loose(at(n_));
+  std::vector<double> moved(3 * n_, 0.0), loose(at(n_));
   for (int i = 0; i < n_; ++i) {
-    loose[at(i)] = stepper.looseBound(i);
+    loose[i] = stepper.looseBound(i);
     for (int j = 0; j < n_; ++j)
       if (const double total = stepper.totalBound(j); total > 0)
-        for (int k = 0; k < 3; ++k)
-          moved[at(3 * i + k)] += states.frameDerivativeNorm(i, j, k, stepper.theta()) * total;
+        for (int k = 0; k < 3; ++k) moved[3 * i + k] += states.frameDerivativeNorm(i, j, k, stepper.theta()) * total;
   }
   for (int o = 0; o < outputs_; ++o) {
-    double rest = own[at(o)], turn = 0;
+    double rest = own[o], turn = 0;
     for (int i = 0; i < n_; ++i) {
       const int G = series_.outputNode(outputs_ + o * n_ + i);
       const double norm = series_.norm(G), off = series_.rho0(G) + series_.rho1(G);
-      rest += off * tube[at(i)] + norm * loose[at(i)];
-      turn += series_.derivativeNorm(G, 2, theta) * moved[at(3 * i)] +
-              2 * series_.derivativeNorm(G, 1, theta) * moved[at(3 * i + 1)] + norm * moved[at(3 * i + 2)];
+      rest += off * tube[i] + norm * loose[i];
+      turn += series_.derivativeNorm(G, 2, theta) * moved[3 * i] +
+              2 * series_.derivativeNorm(G, 1, theta) * moved[3 * i + 1] + norm * moved[3 * i + 2];
     }
-    rest_[at(o)] = 2 * rest * bounds::up;
-    turn_[at(o)] = turn * bounds::up;
+    rest_[o] = 2 * rest * bounds::up;
+    turn_[o] = turn * bounds::up;
   }
   return true;
 }
@@ -388,10 +387,10 @@ void FlowOutputChords::sag(double from, double to, std::vector<FlowSag>& sags) c
   }
   const double begin = (from - from_) / scale_, end = (to - from_) / scale_;
   for (int o = 0; o < outputs_; ++o)
-    sags.push_back(isBounded(o) ? FlowSag{series_.sag(series_.outputNode(o), begin, end, second_[at(o)], third_[at(o)],
-                                                      turn_[at(o)]),
-                                          rest_[at(o)]}
-                                : FlowSag{Interval::entire(), 0});
+    sags.push_back(
+        isBounded(o)
+            ? FlowSag{series_.sag(series_.outputNode(o), begin, end, second_[o], third_[o], turn_[o]), rest_[o]}
+            : FlowSag{Interval::entire(), 0});
 }
 
 }  // namespace gamut

@@ -31,11 +31,11 @@ class FlowOutputs {
   /// Whether they may be other just before and after a moment than at it.
   bool hasJumps() const { return series_.kinks().hasJumps(); }
   const std::shared_ptr<const Monomials>& monomials() const { return layout_; }
-  const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
-  double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }
+  const double* polynomial(int output) const { return &polynomial_[output * monomials_]; }
+  double radius(int output) const { return radius_[output]; }
   /// What of the radius is not overestimation: what inputs did, before and at this moment; what is known of jumps, and
   /// what signs that are given may be.
-  double driven(int output) const { return driven_[static_cast<std::size_t>(output)]; }
+  double driven(int output) const { return driven_[output]; }
 
   /// Output o wherever the states are in these boxes, by plain intervals, for one that has an infinite radius:
   /// where it is not defined for every ξ; and for what has kinks, of which it may know more.
@@ -84,9 +84,7 @@ class FlowOutputChords {
   void sag(double from, double to, std::vector<FlowSag>& sags) const;
   bool isBounded(int output) const { return rest(output) < std::numeric_limits<double>::infinity(); }
   /// What of the sag no shorter time makes less; infinite where nothing could be proved.
-  double rest(int output) const {
-    return isApart_ ? apart_[static_cast<std::size_t>(output)].rest(0) : rest_[static_cast<std::size_t>(output)];
-  }
+  double rest(int output) const { return isApart_ ? apart_[output].rest(0) : rest_[output]; }
 
  private:
   /// States as polynomials in time from `from` on, up to θ.

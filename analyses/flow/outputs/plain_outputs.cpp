@@ -4,17 +4,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "scalars/index.hpp"
 #include "scalars/program/angles.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
 
-using detail::at;
-
 bool dependsOnTime(const Program& program) {
   const std::vector<Node>& nodes = program.nodes();
-  const auto isTime = [&](int node) { return nodes[at(node)].op == Op::time; };
+  const auto isTime = [&](int node) { return nodes[node].op == Op::time; };
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     bool does = false;
     detail::forEachOperand(program.table(), static_cast<int>(i), [&](int operand) { does = does || isTime(operand); });
@@ -29,9 +26,9 @@ std::vector<int> argumentsOfRoots(const Program& g, std::vector<int> open) {
   while (!open.empty()) {
     const int i = open.back();
     open.pop_back();
-    if (isUsed[at(i)] != 0) continue;
-    isUsed[at(i)] = 1;
-    const Node& node = g.nodes()[at(i)];
+    if (isUsed[i] != 0) continue;
+    isUsed[i] = 1;
+    const Node& node = g.nodes()[i];
     if (isOneSided(domainOf(node.op))) found.push_back(node.a);
     detail::forEachOperand(g.table(), i, [&](int operand) { open.push_back(operand); });
   }
@@ -52,9 +49,9 @@ Program withNodesGiven(const Program& g, const std::vector<int>& given, const st
   Recorder recorder(g.states(), g.parameters() + static_cast<int>(given.size()));
   std::vector<int> instead(g.nodes().size(), -1), outputs;
   for (std::size_t j = 0; j < given.size(); ++j)
-    instead[at(given[j])] = recorder.parameter(g.parameters() + static_cast<int>(j));
+    instead[given[j]] = recorder.parameter(g.parameters() + static_cast<int>(j));
   const std::vector<int> here = recorder.append(g, {}, instead);
-  for (const int node : nodes) outputs.push_back(here[at(node)]);
+  for (const int node : nodes) outputs.push_back(here[node]);
   return recorder.finish(outputs);
 }
 
@@ -103,7 +100,7 @@ PlainOutputs::PlainOutputs(const Program& g) : states_(g.states()) {
 
 Interval PlainOutputs::over(int output, const Interval& t, const std::vector<Interval>& states,
                             const std::vector<Interval>& parameters) {
-  Output& of = outputs_[at(output)];
+  Output& of = outputs_[output];
   std::vector<Interval> all = parameters;
   for (Given& given : of.extremes) {
     given.ofBoth.setParameters(all);

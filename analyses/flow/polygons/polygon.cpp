@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "scalars/index.hpp"
-
 namespace gamut {
 
 bool Polygon::load(std::vector<PolygonSide> sides) {

@@ -8,12 +8,9 @@
 #include <utility>
 
 #include "analyses/flow/polygons/polygon_range.hpp"
-#include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
-
-using detail::at;
 
 namespace {
 
@@ -21,14 +18,14 @@ constexpr int sidesOfTwo = 64, sidesOfOne = 8;
 
 /// [i][j]: whether ẋ_i depends on x_j.
 std::vector<std::vector<char>> dependencesOf(const Program& f) {
-  std::vector<std::vector<char>> of(f.nodes().size(), std::vector<char>(at(f.states()), 0)), result;
+  std::vector<std::vector<char>> of(f.nodes().size(), std::vector<char>(f.states(), 0)), result;
   for (std::size_t i = 0; i < of.size(); ++i) {
-    if (f.nodes()[i].op == Op::state) of[i][at(f.nodes()[i].a)] = 1;
+    if (f.nodes()[i].op == Op::state) of[i][f.nodes()[i].a] = 1;
     detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) {
-      for (std::size_t j = 0; j < of[i].size(); ++j) of[i][j] = static_cast<char>(of[i][j] | of[at(operand)][j]);
+      for (std::size_t j = 0; j < of[i].size(); ++j) of[i][j] = static_cast<char>(of[i][j] | of[operand][j]);
     });
   }
-  for (int i = 0; i < f.states(); ++i) result.push_back(of[at(f.outputNodes()[at(i)])]);
+  for (int i = 0; i < f.states(); ++i) result.push_back(of[f.outputNodes()[i]]);
   return result;
 }
 
@@ -71,19 +68,19 @@ std::vector<std::array<int, 2>> blocksOf(const Program& f) {
 Program blockOf(const Program& f, const std::array<int, 2>& states, const std::vector<int>& drivers) {
   std::vector<int> needed;
   for (const int state : states)
-    if (state >= 0) needed.push_back(f.outputNodes()[at(state)]);
+    if (state >= 0) needed.push_back(f.outputNodes()[state]);
   const Program own = Recorder(f).finish(needed);
   Recorder recorder(2, f.parameters() + static_cast<int>(drivers.size()));
   const int nothing = recorder.constant(0.0);
   std::vector<int> instead(own.nodes().size(), -1), parameters, outputs;
-  for (int i = 0; i < f.states(); ++i) instead[at(i)] = nothing;  // of those that it does not depend on
+  for (int i = 0; i < f.states(); ++i) instead[i] = nothing;  // of those that it does not depend on
   for (std::size_t k : {0U, 1U})
-    if (states[k] >= 0) instead[at(states[k])] = recorder.state(static_cast<int>(k));
+    if (states[k] >= 0) instead[states[k]] = recorder.state(static_cast<int>(k));
   for (std::size_t d = 0; d < drivers.size(); ++d)
-    instead[at(drivers[d])] = recorder.parameter(f.parameters() + static_cast<int>(d));
+    instead[drivers[d]] = recorder.parameter(f.parameters() + static_cast<int>(d));
   for (int p = 0; p < f.parameters(); ++p) parameters.push_back(recorder.parameter(p));
   const std::vector<int> here = recorder.append(own, parameters, instead);
-  for (const int node : own.outputNodes()) outputs.push_back(here[at(node)]);
+  for (const int node : own.outputNodes()) outputs.push_back(here[node]);
   outputs.resize(2, nothing);
   return recorder.finish(outputs);
 }
@@ -104,19 +101,19 @@ PolygonBlocks::PolygonBlocks(const Program& f, const Box& box, double horizon) {
     std::vector<int> drivers;
     for (int j = 0; j < f.states(); ++j)
       if (j != states[0] && j != states[1] &&
-          std::ranges::any_of(states, [&](int i) { return i >= 0 && direct[at(i)][at(j)] != 0; }))
+          std::ranges::any_of(states, [&](int i) { return i >= 0 && direct[i][j] != 0; }))
         drivers.push_back(j);
     Box parameters(box.begin() + f.states(), box.end());
     std::vector<char> isWide = widthsOf(parameters);
-    for (const int driver : drivers) parameters.push_back(box[at(driver)]);
+    for (const int driver : drivers) parameters.push_back(box[driver]);
     isWide.resize(parameters.size(), 1);
-    const Box starts{box[at(states[0])], states[1] >= 0 ? box[at(states[1])] : Interval(0.0)};
+    const Box starts{box[states[0]], states[1] >= 0 ? box[states[1]] : Interval(0.0)};
     blocks_.push_back({states,
                        PolygonMotion(blockOf(f, states, drivers), starts, parameters, isWide, horizon,
                                      states[1] >= 0 ? sidesOfTwo : sidesOfOne),
                        drivers, parameters});
   }
-  over_.assign(at(f.states()), Interval::empty());
+  over_.assign(f.states(), Interval::empty());
   reachOver_.resize(blocks_.size());
   forget();
 }
@@ -144,7 +141,7 @@ bool PolygonBlocks::step(double end) {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     Block& block = blocks_[b];
     const std::size_t own = block.parameters.size() - block.drivers.size();
-    for (std::size_t d = 0; d < block.drivers.size(); ++d) block.parameters[own + d] = over_[at(block.drivers[d])];
+    for (std::size_t d = 0; d < block.drivers.size(); ++d) block.parameters[own + d] = over_[block.drivers[d]];
     if (!block.drivers.empty()) block.motion.setParameters(block.parameters);
     while (block.motion.time() < until) {
       if (!block.motion.step(until)) return false;
@@ -157,7 +154,7 @@ bool PolygonBlocks::step(double end) {
         const double most = block.motion.reachOver(axis);
         axis[k] = -1;
         const Interval over = Interval(-block.motion.reachOver(axis), most) * Interval(block.motion.units()[k]);
-        over_[at(block.states[k])] = hull(over_[at(block.states[k])], over);
+        over_[block.states[k]] = hull(over_[block.states[k]], over);
       }
     }
   }
@@ -170,7 +167,7 @@ std::vector<Interval> PolygonBlocks::states() const {
   for (const Block& block : blocks_)
     for (std::size_t k : {0U, 1U})
       if (block.states[k] >= 0)
-        result[at(block.states[k])] = block.motion.polygon().box()[k] * Interval(block.motion.units()[k]);
+        result[block.states[k]] = block.motion.polygon().box()[k] * Interval(block.motion.units()[k]);
   return result;
 }
 

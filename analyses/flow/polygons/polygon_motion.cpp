@@ -57,7 +57,7 @@ PolygonMotion::PolygonMotion(const Program& f, const Box& starts, const Box& par
       full_(withAllDerivatives(f, isWide)),
       numbers_(withAllDerivatives(f, isWide)),
       count_(at(sides)) {
-  found_.resize(at(full_.tape().outputs()));
+  found_.resize(full_.tape().outputs());
   values_.resize(found_.size());
   setParameters(parameters);
   setUnits(starts, horizon);

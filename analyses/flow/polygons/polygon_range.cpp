@@ -30,9 +30,9 @@ bool hasWidth(const Interval& parameter) { return width(parameter) > 0x1p-44 * m
 Program withTimeAsState(const Program& f) {
   Recorder recorder(f.states() + 1, f.parameters());
   std::vector<int> instead(f.nodes().size(), -1), outputs;
-  instead[at(f.states() + f.parameters())] = recorder.state(f.states());
+  instead[f.states() + f.parameters()] = recorder.state(f.states());
   const std::vector<int> here = recorder.append(f, {}, instead);
-  for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : f.outputNodes()) outputs.push_back(here[output]);
   return recorder.finish(outputs);
 }
 
@@ -48,7 +48,7 @@ Program withAllDerivatives(const Program& f, const std::vector<char>& isWide) {
   std::vector<int> outputs(all.outputNodes().begin(), all.outputNodes().begin() + m + m * n);
   for (int i = 0; i < m; ++i)
     for (int p = 0; p < k; ++p)
-      if (isWide[at(p)] != 0) outputs.push_back(all.outputNodes()[at(m + m * n + i * k + p)]);
+      if (isWide[p] != 0) outputs.push_back(all.outputNodes()[m + m * n + i * k + p]);
   return Recorder(all).finish(outputs);
 }
 
@@ -89,12 +89,12 @@ Interval PolygonRange::over(int o, const std::vector<PolygonPlace>& places, cons
 /// About; not of what has kinks, jumps or roots.
 double PolygonRange::sample(double sign, const std::vector<double>& X, const std::vector<PolygonPlace>& places,
                             double t) {
-  if (!outputs_[at(output_)]) return -unknownBound;
+  if (!outputs_[output_]) return -unknownBound;
   std::vector<double> place(states_ + 1, t);
   for (std::size_t b = 0; b < places.size(); ++b)
     for (std::size_t k : {0U, 1U})
-      if (places[b].states[k] >= 0) place[at(places[b].states[k])] = X[2 * b + k] * places[b].unit[k];
-  outputs_[at(output_)]->numbers(t, place, numbers_);
+      if (places[b].states[k] >= 0) place[places[b].states[k]] = X[2 * b + k] * places[b].unit[k];
+  outputs_[output_]->numbers(t, place, numbers_);
   double value = sign * numbers_[0];
   for (std::size_t p = 0; p < radius_.size(); ++p) value += std::fabs(numbers_[2 + states_ + p]) * radius_[p];
   return std::isfinite(value) ? value : -unknownBound;
@@ -107,15 +107,15 @@ double PolygonRange::bound(double sign, const Part& part, const std::vector<Poly
   for (std::size_t b = 0; b < places.size(); ++b)
     for (std::size_t k : {0U, 1U}) {
       if (places[b].states[k] < 0) continue;
-      place[at(places[b].states[k])] = part[2 * b + k] * Interval(places[b].unit[k]);
-      middle[at(places[b].states[k])] = Interval(midpoint(part[2 * b + k])) * Interval(places[b].unit[k]);
+      place[places[b].states[k]] = part[2 * b + k] * Interval(places[b].unit[k]);
+      middle[places[b].states[k]] = Interval(midpoint(part[2 * b + k])) * Interval(places[b].unit[k]);
     }
-  if (!outputs_[at(output_)]) {
+  if (!outputs_[output_]) {
     place.pop_back();
     const Interval value = sided * plain_.over(output_, t, place, parameters_);
     return isCommon(value) ? value.upper() : unknownBound;
   }
-  Smooth& output = *outputs_[at(output_)];
+  Smooth& output = *outputs_[output_];
   Work::count(Work::boundedNode, 40);
   output.full(t, place, found_);
   double least = unknownBound;
@@ -185,7 +185,7 @@ double PolygonRange::greatest(double sign, const std::vector<PolygonPlace>& plac
   for (int count = 1; count < most && !parts.empty(); count += 2) {
     const Bounded top = parts.top();
     const double wanted = greatest + tolerance * (greatest - least);
-    if (top.bound <= wanted || (!outputs_[at(output_)] && !std::isfinite(top.bound))) break;
+    if (top.bound <= wanted || (!outputs_[output_] && !std::isfinite(top.bound))) break;
     std::size_t widest = 0;
     for (std::size_t i = 1; i < whole.size(); ++i)
       if (width(top.part[i]) * width(whole[widest]) > width(top.part[widest]) * width(whole[i])) widest = i;

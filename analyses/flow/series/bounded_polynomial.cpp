@@ -61,7 +61,7 @@ Interval rangeOf(const Monomials& monomials, const BoundedPolynomial& a) {
 /// A coefficient of N products has 2N roundings at most, in whatever order they are added. Dropped are the products
 /// whose grades add up to more than the degree.
 BoundedPolynomial product(const Monomials& monomials, const BoundedPolynomial& a, const BoundedPolynomial& b) {
-  BoundedPolynomial result{std::vector<double>(at(monomials.count()), 0.0)};
+  BoundedPolynomial result{std::vector<double>(monomials.count(), 0.0)};
   const auto padded = [&](const BoundedPolynomial& x) {
     std::vector<double> c = x.c;
     c.resize(result.c.size(), 0.0);
@@ -74,21 +74,21 @@ BoundedPolynomial product(const Monomials& monomials, const BoundedPolynomial& a
   for (int g = 0; g < monomials.count(); ++g) {
     std::array<double, together> sums{}, sizes{};
     const auto add = [&](std::size_t to, std::int32_t q) {
-      const double term = ofA[at(pairs[q].a)] * ofB[at(pairs[q].b)];
+      const double term = ofA[pairs[q].a] * ofB[pairs[q].b];
       sums[to] += term;
       sizes[to] += std::fabs(term);
     };
-    auto q = monomials.first()[at(g)];
+    auto q = monomials.first()[g];
     const auto end = monomials.first()[at(g) + 1];
     for (; q + static_cast<std::int32_t>(together) <= end; q += static_cast<std::int32_t>(together))
       for (std::size_t k = 0; k < together; ++k) add(k, q + static_cast<std::int32_t>(k));
     for (; q < end; ++q) add(0, q);
-    result.c[at(g)] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    result.c[g] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
     rounding += 2 * monomials.multiplicity(g) * bounds::unit * ((sizes[0] + sizes[1]) + (sizes[2] + sizes[3]));
   }
   std::vector<double> gradesOfA(at(monomials.degree()) + 1, 0.0), gradesOfB = gradesOfA;
-  for (std::size_t g = 0; g < a.c.size(); ++g) gradesOfA[at(monomials.grade(static_cast<int>(g)))] += std::fabs(a.c[g]);
-  for (std::size_t g = 0; g < b.c.size(); ++g) gradesOfB[at(monomials.grade(static_cast<int>(g)))] += std::fabs(b.c[g]);
+  for (std::size_t g = 0; g < a.c.size(); ++g) gradesOfA[monomials.grade(static_cast<int>(g))] += std::fabs(a.c[g]);
+  for (std::size_t g = 0; g < b.c.size(); ++g) gradesOfB[monomials.grade(static_cast<int>(g))] += std::fabs(b.c[g]);
   for (std::size_t p = 0; p < gradesOfA.size(); ++p)
     for (std::size_t q = gradesOfA.size() - p; q < gradesOfB.size(); ++q) dropped += gradesOfA[p] * gradesOfB[q];
   const double errors = a.error * b.norm() + b.error * a.norm();
@@ -219,7 +219,7 @@ PolynomialRoot rootOf(const Monomials& monomials, const std::vector<BoundedPolyn
     }
     middle -= value / slope;
   }
-  PolynomialRoot result{{std::vector<double>(at(monomials.count()), 0.0)}, 0, slope};
+  PolynomialRoot result{{std::vector<double>(monomials.count(), 0.0)}, 0, slope};
   BoundedPolynomial next{result.x};
   next.c[0] = middle;
   constexpr int rounds = 12;

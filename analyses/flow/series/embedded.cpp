@@ -36,8 +36,8 @@ void halve(std::vector<Embedded>& values, int symbol, double middle) {
 
 void halve(std::vector<double>& centre, std::vector<double>& half, int symbol, double middle) {
   if (at(symbol) >= half.size()) return;  // one of a remainder's own
-  centre[at(symbol)] += half[at(symbol)] * middle;
-  half[at(symbol)] *= 0.5;
+  centre[symbol] += half[symbol] * middle;
+  half[symbol] *= 0.5;
 }
 
 }  // namespace gamut

@@ -96,7 +96,7 @@ struct FineRecursion::Orders {
  private:
   void put(int node, const detail::FineValue& point) const {
     at(node, 0) = point.value;
-    of.pointError_[detail::at(node)] = point.error;
+    of.pointError_[node] = point.error;
   }
 };
 
@@ -127,7 +127,7 @@ void FineRecursion::plan(int orders, std::vector<Node> nodes, std::vector<int> c
 }
 
 double FineRecursion::residual(int solution, int component, int order) const {
-  const Solution& s = solutions_[at(solution)];
+  const Solution& s = solutions_[solution];
   return s.residual[at(order) * s.rightSide.size() + at(component)];
 }
 
@@ -157,7 +157,7 @@ GAMUT_INLINE void FineRecursion::run(double t0, double h0) {
 
 template <bool fused>
 GAMUT_INLINE void FineRecursion::computeOrder(int node, int i) {
-  const Node& v = nodes_[at(node)];
+  const Node& v = nodes_[node];
   if ((v.invariant && i > 0) || isTwin(v.op)) return;
   if (v.op == Op::solution) {
     if (v.b == 0) solve<fused>(node, i);
@@ -177,8 +177,7 @@ GAMUT_INLINE void FineRecursion::computeOrder(int node, int i) {
       out[i] = -a[i];
       return;
     case Op::mul:
-      out[i] =
-          nodes_[at(v.a)].invariant ? product<fused>(a[0], b[i]) : Orders<fused>{*this}.convolution(v.a, v.b, i, 0, i);
+      out[i] = nodes_[v.a].invariant ? product<fused>(a[0], b[i]) : Orders<fused>{*this}.convolution(v.a, v.b, i, 0, i);
       return;
     case Op::sqr:
       out[i] = Orders<fused>{*this}.convolution(v.a, v.a, i, 0, i);
@@ -197,7 +196,7 @@ GAMUT_INLINE void FineRecursion::computeOrder(int node, int i) {
 /// A₀ x_i = b_i - Σ_{j≥1} A_j x_{i-j}, refined with residuals in double-double.
 template <bool fused>
 GAMUT_INLINE void FineRecursion::solve(int node, int i) {
-  Solution& solution = solutions_[at(nodes_[at(node)].a)];
+  Solution& solution = solutions_[nodes_[node].a];
   const int n = static_cast<int>(solution.rightSide.size());
   if (i == 0 && solution.factorises) {
     std::vector<double> leading;
@@ -206,25 +205,25 @@ GAMUT_INLINE void FineRecursion::solve(int node, int i) {
   }
   const auto x = [&](int k) { return &values_[first(node + k)]; };
   for (int k = 0; k < n; ++k) {
-    Number s = value(solution.rightSide[at(k)], i);
+    Number s = value(solution.rightSide[k], i);
     for (int j = 0; j < n; ++j) {
-      const int entry = solution.matrix[at(k * n + j)];
-      if (!nodes_[at(entry)].invariant) s = sum(s, -Orders<fused>{*this}.convolution(entry, node + j, i, 1, i));
+      const int entry = solution.matrix[k * n + j];
+      if (!nodes_[entry].invariant) s = sum(s, -Orders<fused>{*this}.convolution(entry, node + j, i, 1, i));
     }
-    rightSide_[at(k)] = s;
+    rightSide_[k] = s;
     x(k)[i] = {0, 0};
   }
   constexpr int refinements = 3;  // 16 digits, but for the condition, each
   for (int round = 0; round <= refinements; ++round) {
     for (int k = 0; k < n; ++k) {
-      Number s = rightSide_[at(k)];
-      for (int j = 0; j < n; ++j) addProduct<fused>(s, -value(solution.matrix[at(k * n + j)], 0), x(j)[i]);
-      correction_[at(k)] = s.hi;
-      solution.residual[at(i * n + k)] = std::fabs(s.hi);
+      Number s = rightSide_[k];
+      for (int j = 0; j < n; ++j) addProduct<fused>(s, -value(solution.matrix[k * n + j], 0), x(j)[i]);
+      correction_[k] = s.hi;
+      solution.residual[i * n + k] = std::fabs(s.hi);
     }
     if (round == refinements) return;
     solution.factors->solve(correction_.data(), unused_.data());
-    for (int k = 0; k < n; ++k) x(k)[i] = sum(x(k)[i], {correction_[at(k)], 0});
+    for (int k = 0; k < n; ++k) x(k)[i] = sum(x(k)[i], {correction_[k], 0});
   }
 }
 

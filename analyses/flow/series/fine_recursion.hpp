@@ -48,7 +48,7 @@ class FineRecursion {
   const Number& value(int node, int order) const { return values_[first(node) + detail::at(order)]; }
   double residual(int solution, int component, int order) const;
   /// Of a sine, say, at the expansion point.
-  double pointError(int node) const { return pointError_[detail::at(node)]; }
+  double pointError(int node) const { return pointError_[node]; }
 
  private:
   template <bool fused>

@@ -19,14 +19,12 @@ void hornerRows(const double* c, int count, int stride, int first, int last, dou
     sum.fill(0.0);
     if (rows == together) {
       for (int i = last; i >= first; --i)
-        for (int k = 0; k < together; ++k)
-          sum[static_cast<std::size_t>(k)] = sum[static_cast<std::size_t>(k)] * x + weight(i, own[k * stride + i]);
+        for (int k = 0; k < together; ++k) sum[k] = sum[k] * x + weight(i, own[k * stride + i]);
     } else {
       for (int i = last; i >= first; --i)
-        for (int k = 0; k < rows; ++k)
-          sum[static_cast<std::size_t>(k)] = sum[static_cast<std::size_t>(k)] * x + weight(i, own[k * stride + i]);
+        for (int k = 0; k < rows; ++k) sum[k] = sum[k] * x + weight(i, own[k * stride + i]);
     }
-    for (int k = 0; k < rows; ++k) visit(g + k, sum[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < rows; ++k) visit(g + k, sum[k]);
   }
 }
 

@@ -152,7 +152,7 @@ GAMUT_INLINE void thinSolution(const ThinNode* v, int x, const ThinSolution& sol
   const int n = static_cast<int>(solution.rightSide.size());
   const int* entry = solution.matrix.data();
   for (int k = 0; k < n; ++k) {
-    double s = cur[solution.rightSide[static_cast<std::size_t>(k)]];
+    double s = cur[solution.rightSide[k]];
     for (int j = 0; j < n; ++j, ++entry)
       if (*entry >= 0) s -= thinDot(v[*entry].forward, v[x + j].reversed, i) + cur[*entry] * v[x + j].forward[0];
     cur[x + k] = s;
@@ -186,7 +186,7 @@ GAMUT_INLINE void thinOrder(const ThinNode* v, int x, const std::vector<const Th
       cur[x] = thinDot(a.forward, a.reversed, i) + 2 * (a.forward[0] * cur[n.a]);
       break;
     case Op::solution:
-      if (n.b == 0) thinSolution(v, x, *solutions[static_cast<std::size_t>(n.a)], i, cur);
+      if (n.b == 0) thinSolution(v, x, *solutions[n.a], i, cur);
       break;
 #define GAMUT_CASE(name)                                                              \
   case Op::name:                                                                      \
@@ -234,7 +234,7 @@ GAMUT_CLONES void thinRecursion(ThinProgram& program, int time, int order, doubl
       cur[time] = i == 1 ? h0 : 0.0;
       const bool isLeading = i < leading.orders;
       if (isLeading)
-        for (const int x : leading.nodes) cur[x] = leading.values[static_cast<std::size_t>(x * leading.orders + i)];
+        for (const int x : leading.nodes) cur[x] = leading.values[x * leading.orders + i];
       for (int x = time + 1; x < count; ++x) {
         const ThinNode& n = v[x];
         if (n.invariant || n.op == Op::state || isTwin(n.op) || (isLeading && n.fine)) continue;

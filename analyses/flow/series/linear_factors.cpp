@@ -29,9 +29,9 @@ void LinearFactors::factorise(const double* a) {
   for (int j = 0; j < n_; ++j) {
     std::vector<double>& column = right_;
     std::fill(column.begin(), column.end(), 0.0);
-    column[at(j)] = 1;
+    column[j] = 1;
     substitute(column.data());
-    for (int i = 0; i < n_; ++i) inverse_[at(i * n_ + j)] = column[at(i)];
+    for (int i = 0; i < n_; ++i) inverse_[i * n_ + j] = column[i];
   }
 }
 
@@ -40,18 +40,18 @@ void LinearFactors::eliminate(std::vector<double> a) {
   row_.clear();
   column_.clear();
   pivot_.clear();
-  const auto entry = [&](int i, int j) -> double& { return a[at(i * n_ + j)]; };
-  std::vector<double> scale(at(n_), 0.0);
+  const auto entry = [&](int i, int j) -> double& { return a[i * n_ + j]; };
+  std::vector<double> scale(n_, 0.0);
   std::vector<int> rows, columns;
   for (int i = 0; i < n_; ++i) {
     rows.push_back(i);
     columns.push_back(i);
-    for (int j = 0; j < n_; ++j) scale[at(i)] = std::max(scale[at(i)], std::fabs(entry(i, j)));
+    for (int j = 0; j < n_; ++j) scale[i] = std::max(scale[i], std::fabs(entry(i, j)));
   }
-  std::vector<int> inRow(at(n_));
+  std::vector<int> inRow(n_);
   while (!rows.empty()) {
     for (int i : rows)
-      inRow[at(i)] =
+      inRow[i] =
           static_cast<int>(std::count_if(columns.begin(), columns.end(), [&](int j) { return entry(i, j) != 0; }));
     int row = rows.front(), column = columns.front();
     long best = std::numeric_limits<long>::max();
@@ -61,13 +61,13 @@ void LinearFactors::eliminate(std::vector<double> a) {
       int inColumn = 0;
       for (int i : rows)
         if (entry(i, j) != 0) {
-          largest = std::max(largest, std::fabs(entry(i, j)) / scale[at(i)]);
+          largest = std::max(largest, std::fabs(entry(i, j)) / scale[i]);
           ++inColumn;
         }
       for (int i : rows) {
-        const double size = std::fabs(entry(i, j)) / scale[at(i)];
+        const double size = std::fabs(entry(i, j)) / scale[i];
         if (entry(i, j) == 0 || !(size >= smallest * largest)) continue;
-        const long fill = static_cast<long>(inRow[at(i)] - 1) * (inColumn - 1);
+        const long fill = static_cast<long>(inRow[i] - 1) * (inColumn - 1);
         if (fill < best || (fill == best && size > bestSize)) best = fill, bestSize = size, row = i, column = j;
       }
     }
@@ -94,13 +94,13 @@ void LinearFactors::substitute(double* x) const {
   double* y = work_.data();
   std::copy_n(x, n_, y);
   for (int k = 0; k < n_; ++k) {
-    const double value = y[row_[at(k)]];
+    const double value = y[row_[k]];
     for (const Term* term = lower_.begin(k); term != lower_.end(k); ++term) y[term->index] -= term->value * value;
   }
   for (int k = n_ - 1; k >= 0; --k) {
-    double s = y[row_[at(k)]];
+    double s = y[row_[k]];
     for (const Term* term = upper_.begin(k); term != upper_.end(k); ++term) s -= term->value * x[term->index];
-    x[column_[at(k)]] = s / pivot_[at(k)];
+    x[column_[k]] = s / pivot_[k];
   }
 }
 
@@ -118,9 +118,9 @@ void LinearFactors::solve(double* x, double* residual) const {
   // Refined once: then the residual is of the size of its own rounding, whatever the pivots.
   subtract(right_.data(), x, missing_.data());
   substitute(missing_.data());
-  for (int i = 0; i < n_; ++i) x[i] += missing_[at(i)];
+  for (int i = 0; i < n_; ++i) x[i] += missing_[i];
   subtract(right_.data(), x, missing_.data());
-  for (int i = 0; i < n_; ++i) residual[i] += std::fabs(missing_[at(i)]);
+  for (int i = 0; i < n_; ++i) residual[i] += std::fabs(missing_[i]);
 }
 
 double LinearFactors::size(int row, const double* norms) const {

@@ -37,7 +37,7 @@ class LinearFactors {
 
     void add(int index, double value) { terms.push_back({index, value}); }
     void endRow() { first.push_back(static_cast<int>(terms.size())); }
-    const Term* begin(int row) const { return terms.data() + first[detail::at(row)]; }
+    const Term* begin(int row) const { return terms.data() + first[row]; }
     const Term* end(int row) const { return terms.data() + first[detail::at(row) + 1]; }
   };
   void eliminate(std::vector<double> a);

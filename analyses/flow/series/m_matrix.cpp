@@ -21,21 +21,21 @@ double* Amplifier::matrix(int size) {
 /// = Σ_k H^k w for any w > 0; in the units of x, so that few terms do: the greatest entries of C's rows.
 double Amplifier::contraction(const std::vector<double>& C) {
   for (int i = 0; i < n_; ++i) {
-    w_[at(i)] = 0;
-    for (int j = 0; j < n_; ++j) w_[at(i)] = std::max(w_[at(i)], C[at(i * n_ + j)]);
-    v_[at(i)] = w_[at(i)];
+    w_[i] = 0;
+    for (int j = 0; j < n_; ++j) w_[i] = std::max(w_[i], C[i * n_ + j]);
+    v_[i] = w_[i];
   }
   double share = 1;
   for (int iteration = 0; iteration < 40 && share >= 0.9; ++iteration) {
     if (iteration > 0)
-      for (int i = 0; i < n_; ++i) v_[at(i)] = w_[at(i)] + Hv_[at(i)];
+      for (int i = 0; i < n_; ++i) v_[i] = w_[i] + Hv_[i];
     share = 0;
     for (int i = 0; i < n_; ++i) {
       double s = 0;
-      for (int j = 0; j < n_; ++j) s += H_[at(i * n_ + j)] * v_[at(j)];
-      Hv_[at(i)] = s * bounds::up + bounds::tiny;
-      if (!(v_[at(i)] > 0 && v_[at(i)] < bounds::largest)) return 1;
-      share = std::max(share, Hv_[at(i)] / v_[at(i)] * bounds::up);
+      for (int j = 0; j < n_; ++j) s += H_[i * n_ + j] * v_[j];
+      Hv_[i] = s * bounds::up + bounds::tiny;
+      if (!(v_[i] > 0 && v_[i] < bounds::largest)) return 1;
+      share = std::max(share, Hv_[i] / v_[i] * bounds::up);
     }
   }
   return share;
@@ -52,23 +52,23 @@ bool Amplifier::bound(const std::vector<double>& C) {
        ++iteration, left *= share) {
     for (int i = 0; i < n_; ++i)
       for (int j = 0; j < n_; ++j) {
-        double s = C[at(i * n_ + j)];
-        for (int k = 0; k < n_; ++k) s += H_[at(i * n_ + k)] * Y_[at(k * n_ + j)];
-        next_[at(i * n_ + j)] = s;
+        double s = C[i * n_ + j];
+        for (int k = 0; k < n_; ++k) s += H_[i * n_ + k] * Y_[k * n_ + j];
+        next_[i * n_ + j] = s;
       }
     std::copy_n(next_.begin(), Y_.size(), Y_.begin());
   }
   for (int j = 0; j < n_; ++j) {
     double shift = 0;
     for (int i = 0; i < n_; ++i) {
-      double s = C[at(i * n_ + j)];
-      for (int k = 0; k < n_; ++k) s += H_[at(i * n_ + k)] * Y_[at(k * n_ + j)];
-      const double defect = s * bounds::up + bounds::tiny - Y_[at(i * n_ + j)];
-      if (defect > 0) shift = std::max(shift, defect / (v_[at(i)] * (1 - share)) * bounds::up);
+      double s = C[i * n_ + j];
+      for (int k = 0; k < n_; ++k) s += H_[i * n_ + k] * Y_[k * n_ + j];
+      const double defect = s * bounds::up + bounds::tiny - Y_[i * n_ + j];
+      if (defect > 0) shift = std::max(shift, defect / (v_[i] * (1 - share)) * bounds::up);
     }
     for (int i = 0; i < n_; ++i) {
-      Y_[at(i * n_ + j)] = (Y_[at(i * n_ + j)] + shift * v_[at(i)]) * bounds::up;
-      if (!(Y_[at(i * n_ + j)] < bounds::largest)) return false;
+      Y_[i * n_ + j] = (Y_[i * n_ + j] + shift * v_[i]) * bounds::up;
+      if (!(Y_[i * n_ + j] < bounds::largest)) return false;
     }
   }
   return true;

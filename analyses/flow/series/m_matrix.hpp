@@ -12,7 +12,7 @@ class Amplifier {
   double* matrix(int size);
   /// False if it is not proved that I - H is an M-matrix, or an entry is too large.
   bool bound(const std::vector<double>& C);
-  double operator()(int i, int j) const { return Y_[static_cast<std::size_t>(i * n_ + j)]; }
+  double operator()(int i, int j) const { return Y_[i * n_ + j]; }
 
  private:
   double contraction(const std::vector<double>& C);

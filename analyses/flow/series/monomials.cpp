@@ -62,19 +62,18 @@ Monomials::Monomials(std::vector<int> weights, int degree) : weight_(std::move(w
     firstProduct_.push_back(firstProduct_.back() + static_cast<std::size_t>(productCount(g)));
   products_.resize(pairs_.size());
   for (int g = 0; g < count(); ++g)
-    for (auto q = static_cast<std::size_t>(first_[static_cast<std::size_t>(g)]);
+    for (auto q = static_cast<std::size_t>(first_[g]);
          q < static_cast<std::size_t>(first_[static_cast<std::size_t>(g) + 1]); ++q)
-      products_[firstProduct_[static_cast<std::size_t>(pairs_[q].a)] + static_cast<std::size_t>(pairs_[q].b)] =
-          static_cast<std::uint16_t>(g);
+      products_[firstProduct_[pairs_[q].a] + static_cast<std::size_t>(pairs_[q].b)] = static_cast<std::uint16_t>(g);
   for (int l = 0; l < symbols(); ++l) linear_.push_back(shifted(0, l, 1));
 }
 
 int Monomials::shifted(int g, int symbol, int by) const {
   std::vector<std::uint8_t> e(weight_.size());
   for (std::size_t l = 0; l < e.size(); ++l) e[l] = static_cast<std::uint8_t>(exponent(g, static_cast<int>(l)));
-  const int power = e[static_cast<std::size_t>(symbol)] + by;
+  const int power = e[symbol] + by;
   if (power < 0) return -1;
-  e[static_cast<std::size_t>(symbol)] = static_cast<std::uint8_t>(power);
+  e[symbol] = static_cast<std::uint8_t>(power);
   const auto found = number_.find(e);
   return found == number_.end() ? -1 : found->second;
 }
@@ -82,8 +81,7 @@ int Monomials::shifted(int g, int symbol, int by) const {
 int Monomials::find(const Monomials& other, int g) const {
   if (other.weight_ == weight_) return g < count() ? g : -1;  // enumerated alike
   std::vector<std::uint8_t> e(weight_.size(), 0);
-  for (int l = 0; l < other.symbols(); ++l)
-    e[static_cast<std::size_t>(l)] = static_cast<std::uint8_t>(other.exponent(g, l));
+  for (int l = 0; l < other.symbols(); ++l) e[l] = static_cast<std::uint8_t>(other.exponent(g, l));
   const auto found = number_.find(e);
   return found == number_.end() ? -1 : found->second;
 }

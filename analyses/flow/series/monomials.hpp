@@ -25,11 +25,11 @@ class Monomials {
   int degree() const { return degree_; }
   int count() const { return static_cast<int>(grade_.size()); }
   /// Number of monomials of grade ≤ q.
-  int countUpTo(int q) const { return countUpTo_[static_cast<std::size_t>(q < degree_ ? q : degree_)]; }
+  int countUpTo(int q) const { return countUpTo_[q < degree_ ? q : degree_]; }
   /// The first monomial of grade q.
   int firstOf(int q) const { return q == 0 ? 0 : countUpTo(q - 1); }
-  int weight(int symbol) const { return weight_[static_cast<std::size_t>(symbol)]; }
-  int grade(int g) const { return grade_[static_cast<std::size_t>(g)]; }
+  int weight(int symbol) const { return weight_[symbol]; }
+  int grade(int g) const { return grade_[g]; }
   int exponent(int g, int symbol) const {
     return exponent_[static_cast<std::size_t>(g) * weight_.size() + static_cast<std::size_t>(symbol)];
   }
@@ -39,21 +39,19 @@ class Monomials {
       if (exponent(g, static_cast<int>(l)) > 0) mass[l] += size;
   }
   /// ∏(α_l + 1): how many pairs of monomials have product g.
-  double multiplicity(int g) const {
-    return static_cast<double>(first_[static_cast<std::size_t>(g) + 1] - first_[static_cast<std::size_t>(g)]);
-  }
+  double multiplicity(int g) const { return static_cast<double>(first_[static_cast<std::size_t>(g) + 1] - first_[g]); }
   /// The number of the monomial g·ξ_symbol^by, or -1 if it is not kept.
   int shifted(int g, int symbol, int by) const;
   /// The number of the monomial of `other` numbered g, whose symbols are the first ones here; -1 if it is not kept.
   int find(const Monomials& other, int g) const;
   /// The number of ξ_symbol itself, or -1 if it is not kept.
-  int linear(int symbol) const { return linear_[static_cast<std::size_t>(symbol)]; }
+  int linear(int symbol) const { return linear_[symbol]; }
 
   /// pairs()[first()[g]] … pairs()[first()[g+1]-1]: every (a, b) with a·b = g.
   const std::vector<Pair>& pairs() const { return pairs_; }
   const std::vector<std::int32_t>& first() const { return first_; }
   /// products(a)[b] is the number of a·b, for as many b as have such; it rises with b.
-  const std::uint16_t* products(int a) const { return &products_[firstProduct_[static_cast<std::size_t>(a)]]; }
+  const std::uint16_t* products(int a) const { return &products_[firstProduct_[a]]; }
   int productCount(int a) const { return countUpTo(degree_ - grade(a)); }
 
  private:

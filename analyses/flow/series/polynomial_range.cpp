@@ -18,7 +18,7 @@ PolynomialRange::PolynomialRange(std::shared_ptr<const Monomials> monomials) : m
   const Monomials& m = *monomials_;
   for (int l = 0; l < m.symbols(); ++l) {
     down_.emplace_back(at(m.count()));
-    for (int g = 0; g < m.count(); ++g) down_.back()[at(g)] = m.shifted(g, l, -1);
+    for (int g = 0; g < m.count(); ++g) down_.back()[g] = m.shifted(g, l, -1);
     axis_.emplace_back();
     for (int g = m.linear(l); g >= 0; g = m.shifted(g, l, 1)) axis_.back().push_back(g);
     bend_.emplace_back();
@@ -31,7 +31,7 @@ PolynomialRange::PolynomialRange(std::shared_ptr<const Monomials> monomials) : m
   }
   for (int n = 0; n <= m.degree(); ++n) {
     binomial_.emplace_back(at(n + 1), 1.0);
-    for (int k = 1; k < n; ++k) binomial_[at(n)][at(k)] = binomial_[at(n - 1)][at(k - 1)] + binomial_[at(n - 1)][at(k)];
+    for (int k = 1; k < n; ++k) binomial_[n][k] = binomial_[n - 1][k - 1] + binomial_[n - 1][k];
   }
   // A term c·binomial·middle^a·half^b takes at most d + 3 roundings and at most d more in the sum; 4d + 8 covers them.
   shiftError_ = (4 * m.degree() + 8) * bounds::unit * bounds::up;
@@ -42,18 +42,18 @@ void PolynomialRange::substitute(int symbol, double middle, double half, const d
   const Monomials& m = *monomials_;
   if (count < 0) count = m.count();
   std::fill(out, out + at(count) * width, 0.0);
-  std::vector<double> middlePower(at(m.degree() + 1), 1.0), halfPower = middlePower;
+  std::vector<double> middlePower(m.degree() + 1, 1.0), halfPower = middlePower;
   for (int i = 1; i <= m.degree(); ++i) {
-    middlePower[at(i)] = middlePower[at(i - 1)] * middle;
-    halfPower[at(i)] = halfPower[at(i - 1)] * half;
+    middlePower[i] = middlePower[i - 1] * middle;
+    halfPower[i] = halfPower[i - 1] * half;
   }
   for (int g = 0; g < count; ++g) {
     const int power = m.exponent(g, symbol);
     int target = g;
     for (int b = power; b >= 0; --b) {
-      const double by = binomial_[at(power)][at(b)] * (middlePower[at(power - b)] * halfPower[at(b)]);
+      const double by = binomial_[power][b] * (middlePower[power - b] * halfPower[b]);
       for (std::size_t k = 0; k < width; ++k) out[at(target) * width + k] += c[at(g) * width + k] * by;
-      target = down_[at(symbol)][at(target)];
+      target = down_[symbol][target];
     }
   }
 }
@@ -61,8 +61,8 @@ void PolynomialRange::substitute(int symbol, double middle, double half, const d
 Interval PolynomialRange::operator()(const double* c, const Box& box, double tolerance) {
   const Monomials& m = *monomials_;
   gap_ = 0;
-  Place place{std::vector<double>(at(m.symbols()), 0.0), std::vector<double>(at(m.symbols()), 1.0)};
-  for (int l = 0; l < m.symbols(); ++l) place.middle[at(l)] = midpoint(box[at(l)]);
+  Place place{std::vector<double>(m.symbols(), 0.0), std::vector<double>(m.symbols(), 1.0)};
+  for (int l = 0; l < m.symbols(); ++l) place.middle[l] = midpoint(box[l]);
   least_ = greatest_ = {c[0], place.middle};
   if (m.count() == 1) return std::isfinite(c[0]) ? Interval(c[0]) : Interval::entire();
   std::vector<double> q(c, c + m.count());
@@ -72,12 +72,12 @@ Interval PolynomialRange::operator()(const double* c, const Box& box, double tol
   double rounding = 0;
   std::vector<double> moved(q.size());
   for (int l = 0; l < m.symbols(); ++l) {
-    const double lower = box[at(l)].lower(), upper = box[at(l)].upper();
+    const double lower = box[l].lower(), upper = box[l].upper();
     if (lower == -1 && upper == 1) continue;
     // [lower, upper] ⊂ middle ± half. Σ|c'| ≤ Σ|c| (|middle| + half)^d, and |middle| + half ≤ 1 + 2^-51.
     const double middle = 0.5 * (lower + upper);
     const double half = std::max(subUp(upper, middle), subUp(middle, lower));
-    place.half[at(l)] = half;
+    place.half[l] = half;
     substitute(l, middle, half, q.data(), moved.data());
     q.swap(moved);
     rounding += shiftError_ * norm * bounds::up;
@@ -127,8 +127,8 @@ double PolynomialRange::maximum(std::vector<double> c, Place place, double round
     for (const double middle : {-0.5, 0.5}) {
       Part half{0, part.depth + 1, std::vector<double>(part.c.size()), part.place};
       substitute(symbol, middle, 0.5, part.c.data(), half.c.data());
-      half.place.middle[at(symbol)] += middle * half.place.half[at(symbol)];
-      half.place.half[at(symbol)] *= 0.5;
+      half.place.middle[symbol] += middle * half.place.half[symbol];
+      half.place.half[symbol] *= 0.5;
       reduceMonotone(half.c, half.place);
       add(std::move(half));
     }
@@ -146,16 +146,16 @@ void PolynomialRange::reduceMonotone(std::vector<double>& c, Place& place) const
   const Monomials& m = *monomials_;
   for (int l = 0; l < m.symbols(); ++l) {
     const int linear = m.linear(l);
-    if (linear < 0 || c[at(linear)] == 0) continue;
-    if (!(nonlinear(l, c) * bounds::up < std::fabs(c[at(linear)]))) continue;
-    const double end = c[at(linear)] > 0 ? 1 : -1;
-    place.middle[at(l)] += end * std::exchange(place.half[at(l)], 0.0);
+    if (linear < 0 || c[linear] == 0) continue;
+    if (!(nonlinear(l, c) * bounds::up < std::fabs(c[linear]))) continue;
+    const double end = c[linear] > 0 ? 1 : -1;
+    place.middle[l] += end * std::exchange(place.half[l], 0.0);
     for (int g = m.count() - 1; g > 0; --g)
       if (const int power = m.exponent(g, l); power > 0) {
         int target = g;
-        for (int i = 0; i < power; ++i) target = down_[at(l)][at(target)];
-        c[at(target)] += power % 2 == 1 && end < 0 ? -c[at(g)] : c[at(g)];
-        c[at(g)] = 0;
+        for (int i = 0; i < power; ++i) target = down_[l][target];
+        c[target] += power % 2 == 1 && end < 0 ? -c[g] : c[g];
+        c[g] = 0;
       }
   }
 }
@@ -176,8 +176,8 @@ void PolynomialRange::findGreatest(const Part& part, Extreme& extreme) const {
     const std::vector<int>& axis = axis_[l];
     double low = c[0], high = c[0];
     for (std::size_t i = 0; i < axis.size(); ++i) {
-      low += i % 2 == 0 ? -c[at(axis[i])] : c[at(axis[i])];
-      high += c[at(axis[i])];
+      low += i % 2 == 0 ? -c[axis[i]] : c[axis[i]];
+      high += c[axis[i]];
     }
     if (std::max(low, high) > best) best = std::max(low, high), along = l, step = high >= low ? 1 : -1;
   }
@@ -188,7 +188,7 @@ void PolynomialRange::findGreatest(const Part& part, Extreme& extreme) const {
 
 /// Σ of the exponent times |c_g| over the nonlinear terms: no less than how the slope in the symbol varies.
 double PolynomialRange::nonlinear(int symbol, const std::vector<double>& c) const {
-  const double* bend = bend_[at(symbol)].data();
+  const double* bend = bend_[symbol].data();
   double sums[4] = {};
   std::size_t g = 0;
   for (; g + 4 <= c.size(); g += 4)

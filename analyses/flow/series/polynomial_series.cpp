@@ -29,18 +29,18 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
       inverse_(plan_.sizes.inverse),
       z_(plan_.sizes.z) {
   radius_ = plan_.radii;
-  varies_.assign(at(program.parameters()), 0);
+  varies_.assign(program.parameters(), 0);
   planSystems(program);
   for (auto* v : {&pointError_, &norm_, &weighted_, &top_}) v->assign(plan_.nodes.size(), 0.0);
   for (auto* v : {&own_, &rho_}) v->assign(plan_.nodes.size(), {});
   for (auto* v : {&total_, &s1_}) v->assign(plan_.nodes.size() * at(stride()), 0.0);
-  scratch_.assign(at(count()), 0.0);
-  scratch2_.assign(at(std::max(count(), largestSystem_)), 0.0);
-  rightSides_.assign(at(largestSystem_ * count()), 0.0);
+  scratch_.assign(count(), 0.0);
+  scratch2_.assign(std::max(count(), largestSystem_), 0.0);
+  rightSides_.assign(largestSystem_ * count(), 0.0);
   combination_.assign(systems_.empty() ? 0 : at(count() * kernels::reversedStride(stride())), 0.0);
   for (auto* v : {&vector_, &vector2_}) v->assign(at(largestSystem_), 0.0);
-  power_.assign(at(std::max(stride(), 2)), 0.0);
-  weights_.assign(at(stride()), 0.0);
+  power_.assign(std::max(stride(), 2), 0.0);
+  weights_.assign(stride(), 0.0);
   putConstants();
   if (plan_.isByGrades || count() == 1) prepareThin();
   if (plan_.isByGrades) planGrades();
@@ -56,10 +56,10 @@ void PolynomialSeries::prepareThin() {
                            &kinks_[static_cast<int>(thin_.nodes.size())].chord.slope});
   thin_.current.assign(plan_.nodes.size(), 0.0);
   if (!plan_.withFrame) {
-    thin_.known.assign(at(plan_.states * stride()), 0.0);
-    for (int s = 0; s < plan_.states; ++s) thin_.nodes[at(s)].known = &thin_.known[at(s * stride())];
+    thin_.known.assign(plan_.states * stride(), 0.0);
+    for (int s = 0; s < plan_.states; ++s) thin_.nodes[s].known = &thin_.known[s * stride()];
   }
-  for (int s = 0; s < plan_.states && plan_.withFrame; ++s) thin_.states.emplace_back(s, plan_.outputs[at(s)]);
+  for (int s = 0; s < plan_.states && plan_.withFrame; ++s) thin_.states.emplace_back(s, plan_.outputs[s]);
   for (int i = 0; i < plan_.states && plan_.withFrame; ++i)
     for (int j = 0; j < plan_.states; ++j) {
       kernels::ThinSum row{plan_.frameNode(i, j), {}};
@@ -68,7 +68,7 @@ void PolynomialSeries::prepareThin() {
       thin_.frame.push_back(std::move(row));
     }
   for (Solution& solution : solutions_) {
-    const System& system = systems_[at(solution.system)];
+    const System& system = systems_[solution.system];
     solution.thin = {&system.factors, solution.residual.data(), system.entries, solution.rightSide};
     for (int& entry : solution.thin.matrix)
       if (plan_[entry].invariant) entry = -1;
@@ -88,15 +88,15 @@ void PolynomialSeries::setFineOrders(int orders) {
     const SeriesNode& v = plan_[x];
     nodes.push_back({v.op, v.a, v.b, v.invariant});
     if (!v.primary) continue;
-    thin_.nodes[at(x)].fine = true;
+    thin_.nodes[x].fine = true;
     if (isOperation(v.op)) computed.push_back(x);
     if (v.op != Op::solution || v.b > 0) continue;
-    System& system = systems_[at(solutions_[at(v.a)].system)];
-    solutions[at(v.a)] = {&system.factors, !system.isFine, system.entries, solutions_[at(v.a)].rightSide, {}};
+    System& system = systems_[solutions_[v.a].system];
+    solutions[v.a] = {&system.factors, !system.isFine, system.entries, solutions_[v.a].rightSide, {}};
     system.isFine = true;
   }
-  for (int s = 0; s < plan_.states; ++s) states.emplace_back(s, plan_.outputs[at(s)]);
-  thin_.leading = {orders, computed, std::vector<double>(at(plan_.ofProgram * orders))};
+  for (int s = 0; s < plan_.states; ++s) states.emplace_back(s, plan_.outputs[s]);
+  thin_.leading = {orders, computed, std::vector<double>(plan_.ofProgram * orders)};
   for (int s = 0; s < plan_.states; ++s) thin_.leading.nodes.push_back(s);
   fine_.plan(orders, std::move(nodes), std::move(computed), std::move(solutions), std::move(states), plan_.time);
   for (int x = 0; x < plan_.ofProgram; ++x)
@@ -140,13 +140,13 @@ void PolynomialSeries::setParameter(int i, const Embedded& value) {
   std::vector<double>& coefficients = scratch_;
   std::fill(coefficients.begin(), coefficients.end(), 0.0);
   coefficients[0] = value.centre;
-  if (value.symbol >= 0) coefficients[at(monomials().linear(value.symbol))] = value.half;
+  if (value.symbol >= 0) coefficients[monomials().linear(value.symbol)] = value.half;
   setParameter(i, coefficients.data(), isFine() ? value.radius : value.coarseRadius());
   if (isFine()) fine_.set(plan_.states + i, {value.centre, value.low});
 }
 
 void PolynomialSeries::setVarying(const std::vector<int>& parameters) {
-  for (const int parameter : parameters) varies_[at(parameter)] = 1;
+  for (const int parameter : parameters) varies_[parameter] = 1;
 }
 
 void PolynomialSeries::setFrame(int i, int j, const double* coefficients, int spacing) {
@@ -165,10 +165,10 @@ void PolynomialSeries::compute(double t0, double h0) {
   if (!thin_.nodes.empty()) {
     if (isFine()) computeLeading(t0, h0);
     for (int x = 0; x < plan_.states && !plan_.withFrame; ++x)
-      std::copy_n(series(x), stride(), &thin_.known[at(x * stride())]);
+      std::copy_n(series(x), stride(), &thin_.known[x * stride()]);
     for (int node = plan_.time + 1; node < plan_.ofProgram; ++node)
       if (!isFine(node)) computeLeadingValue(node);
-    for (int x = 0; x < plan_.size(); ++x) thin_.current[at(x)] = leadingOf(x);
+    for (int x = 0; x < plan_.size(); ++x) thin_.current[x] = leadingOf(x);
     kernels::thinRecursion(thin_, plan_.time, m_, h0);
     return;
   }
@@ -180,7 +180,7 @@ void PolynomialSeries::compute(double t0, double h0) {
     }
     if (!plan_.withFrame) continue;
     for (int s = 0; s < plan_.states; ++s) {
-      const SeriesNode& from = plan_[plan_.outputs[at(s)]];
+      const SeriesNode& from = plan_[plan_.outputs[s]];
       const double* f = series(from);
       const int kept = from.op == Op::state ? from.count : plan_.countOf(from, i);  // x' = v: all that v has
       for (int g = 0; g < kept; ++g) put(plan_[s], g, i + 1, f[g * stride() + i] * h0 / (i + 1));
@@ -195,7 +195,7 @@ void PolynomialSeries::computeLeading(double t0, double h0) {
   for (System& system : systems_) system.isFactorised = system.isFine;
   for (const int node : thin_.leading.nodes) {
     for (int i = 0; i < thin_.leading.orders; ++i)
-      thin_.leading.values[at(node * thin_.leading.orders + i)] = fine_.value(node, i).hi;
+      thin_.leading.values[node * thin_.leading.orders + i] = fine_.value(node, i).hi;
     put(plan_[node], 0, 0, fine_.value(node, 0).hi);
     pointError_[node] = fine_.pointError(node);
   }

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "analyses/flow/series/by_number.hpp"
 #include "analyses/flow/series/embedded.hpp"
 #include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/flow/series/fine_recursion.hpp"
@@ -140,7 +139,7 @@ class PolynomialSeries {
   // inputs, outputs and factors are kept.
   const double* series(int node) const { return series(plan_[node]); }
   const double* frame(int i, int j) const { return series(plan_.frameNode(i, j)); }
-  int outputNode(int output) const { return plan_.outputs[at(output)]; }
+  int outputNode(int output) const { return plan_.outputs[output]; }
   double norm(int node) const { return norm_[node]; }
   /// What the second doubles of a state's series hold, at most.
   double lowNorm(int state) const { return isFine() ? 2 * bounds::unit * norm_[state] : 0.0; }
@@ -195,10 +194,10 @@ class PolynomialSeries {
     };
     std::vector<Product> products;
     std::vector<int> targets;
-    ByNumber<char> isKept;               // whether a node's coefficients are
+    std::vector<char> isKept;            // whether a node's coefficients are
     std::vector<double> sums, weighted;  // Σ|c_{iα}| by grade and order as t_; Σ ∏(α_l+1)|c_{iα}| by order
     std::vector<double> lanes, slopes, frameLanes;  // of the monomials carried on together, [node][order]
-    ByNumber<std::size_t> slopeAt;                  // where a node's j·(order j) begins
+    std::vector<std::size_t> slopeAt;               // where a node's j·(order j) begins
     ZeroedNumbers frameProducts;
   };
 
@@ -222,7 +221,7 @@ class PolynomialSeries {
     bool isFactorised, isBounded;
     bool isFine = false;  // factorised by the fine recursion
 
-    int entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
+    int entry(int i, int j) const { return entries[i * size + j]; }
   };
   struct Solution {
     int system;
@@ -296,7 +295,7 @@ class PolynomialSeries {
   void computeFrameLanes(int i, double h0);
   const double* slope(int node) const { return slopes(plan_[node]); }
   const double* slopeLane(int node) const { return &grades_.slopes[grades_.slopeAt[node]]; }
-  double* lane(int node, int i) { return &grades_.lanes[at((node * stride() + i) * kernels::lanes)]; }
+  double* lane(int node, int i) { return &grades_.lanes[(node * stride() + i) * kernels::lanes]; }
 
   void computeLeading(double t0, double h0);
   bool isFine(int node) const { return fine_.orders() > 0 && node < plan_.ofProgram && plan_[node].primary; }
@@ -309,8 +308,8 @@ class PolynomialSeries {
   template <int least = 1, class Term>
   double sumOverPairs(int g, const Term& term) const {
     double sum = 0;
-    for (auto q = monomials().first()[at(g)]; q < monomials().first()[at(g) + 1]; ++q)
-      if (const auto [p, r] = monomials().pairs()[at(q)]; p >= least) sum += term(p, r);
+    for (auto q = monomials().first()[g]; q < monomials().first()[at(g) + 1]; ++q)
+      if (const auto [p, r] = monomials().pairs()[q]; p >= least) sum += term(p, r);
     return sum;
   }
   const double* invertLeading(int node, const SeriesNode& b);
@@ -361,7 +360,7 @@ class PolynomialSeries {
   void multiplyByInverse(System& system);
   std::vector<int> gradesToMultiply(const System& system);
   double* massFrom(const System& system, int grade, int k, int j) {
-    return &mass_[at(((grade * system.size + k) * system.size + j) * stride())];
+    return &mass_[((grade * system.size + k) * system.size + j) * stride()];
   }
   void tabulateSystem(System& system);
   void solutionOwnErrors(int first);
@@ -379,14 +378,14 @@ class PolynomialSeries {
   const std::atomic<bool>* cancelled_;
   SeriesKinks kinks_;
   bool isAlong_ = false, knowsParameters_ = false;
-  ByNumber<double> radius_;   // of constants and parameters
-  std::vector<char> varies_;  // of each parameter
+  std::vector<double> radius_;  // of constants and parameters
+  std::vector<char> varies_;    // of each parameter
   // In the plan's places.
   ZeroedNumbers f_, r_, d_;
   std::vector<double> t_, s2_, beyond_, inverse_, z_;
   std::vector<double> total_, s1_, from_, scratch_, scratch2_;
-  ByNumber<double> norm_, weighted_, pointError_, top_;
-  ByNumber<SeriesError> own_, rho_, along_;
+  std::vector<double> norm_, weighted_, pointError_, top_;
+  std::vector<SeriesError> own_, rho_, along_;
   std::vector<double> power_, weights_;
   kernels::ThinProgram thin_;  // of the coefficients of 1: the recursion's own view of the plan
   ByGrades grades_;

@@ -59,7 +59,7 @@ bool PolynomialSeries::mayCross(int u) {
 }
 
 void PolynomialSeries::keepAtStart() {
-  ByNumber<double> uncertain;
+  std::vector<double> uncertain;
   for (const SeriesError& rho : rho_) uncertain.push_back(rho.e0);
   kinks_.keepAtStart(uncertain);
 }
@@ -76,7 +76,7 @@ int PolynomialSeries::symbolAcross() const {
     const double crossing = kinks_.argument(u).crossing;
     if (!(crossing > 0)) continue;
     const SeriesNode& v = plan_[u];
-    std::vector<double> mass(at(monomials().symbols()), 0.0);
+    std::vector<double> mass(monomials().symbols(), 0.0);
     for (int g = 1; g < v.count; ++g) monomials().addMass(g, std::fabs(series(v, g)[0]), mass);
     for (std::size_t l = 0; l < mass.size(); ++l)
       if (const double share = mass[l] / crossing; share > most && share * crossing > 4 * kinks_.atStart(u))
@@ -93,7 +93,7 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   for (int i = 0; i < plan_.time; ++i) {
     const bool state = i < plan_.states;
     rho_[i].e0 = !state ? radius_[i] : E != nullptr ? E[i] : 0.0;
-    if (!state && E == nullptr && (knowsParameters_ || varies_[at(i - plan_.states)] != 0)) rho_[i].e0 = 0;
+    if (!state && E == nullptr && (knowsParameters_ || varies_[i - plan_.states] != 0)) rho_[i].e0 = 0;
     rho_[i].e1 = state ? top_[i] : 0.0;  // the order that x keeps and nodes do not
   }
   for (int node = plan_.time + 1; node < plan_.ofProgram; ++node) {

@@ -17,9 +17,9 @@ namespace gamut {
 bool PolynomialSeries::tabulate(double theta) {
   kinks_.forgetAtStart();  // of a step that was tried before, perhaps of another set
   power_[0] = 1;
-  for (int i = 1; i < stride(); ++i) power_[at(i)] = i < m_ ? power_[at(i - 1)] * theta : 0.0;
-  for (int i = 0; i < stride(); ++i) weights_[at(i)] = (i + 1) * power_[at(i)];
-  const double last = power_[at(m_ - 1)] * theta;  // θ^m
+  for (int i = 1; i < stride(); ++i) power_[i] = i < m_ ? power_[i - 1] * theta : 0.0;
+  for (int i = 0; i < stride(); ++i) weights_[i] = (i + 1) * power_[i];
+  const double last = power_[m_ - 1] * theta;  // θ^m
   Work::count(Work::coefficient, static_cast<double>((plan_.isByGrades ? 0 : f_.size()) + t_.size() + s2_.size()));
   Work::count(Work::boundedNode, static_cast<double>(plan_.nodes.size()));
   for (int x = 0; x < plan_.size(); ++x) {
@@ -43,10 +43,9 @@ bool PolynomialSeries::tabulateNorms(int x, double last) {
   double* table = mass(v);
   if (plan_.isByGrades) {
     for (int q = 0; q <= v.degree; ++q)
-      for (int i = 0; i < stride(); ++i)
-        table[q * stride() + i] = grades_.sums[v.t + at(q * stride() + i)] * power_[at(i)];
+      for (int i = 0; i < stride(); ++i) table[q * stride() + i] = grades_.sums[v.t + at(q * stride() + i)] * power_[i];
     norm_[x] = std::accumulate(table, table + (v.degree + 1) * stride(), 0.0);
-    weighted_[x] = kernels::dot(&grades_.weighted[at(x * stride())], weights_.data(), stride());
+    weighted_[x] = kernels::dot(&grades_.weighted[x * stride()], weights_.data(), stride());
   } else {
     kernels::tabulate(monomials(), v.count, series(v), power_.data(), weights_.data(), stride(), table, norm_[x],
                       weighted_[x]);
@@ -54,7 +53,7 @@ bool PolynomialSeries::tabulateNorms(int x, double last) {
   norm_[x] *= bounds::up;
   weighted_[x] *= bounds::up;
   if (!(norm_[x] < bounds::largest)) return false;  // for NaN too
-  double* total = &total_[at(x * stride())];
+  double* total = &total_[x * stride()];
   std::fill(total, total + stride(), 0.0);
   for (int q = 0; q <= v.degree; ++q)
     for (int i = 0; i < stride(); ++i) total[i] += table[q * stride() + i];
@@ -72,8 +71,8 @@ bool PolynomialSeries::tabulateNorms(int x, double last) {
 /// beyond[p][i] = Σ_{j ≤ m-1-i} from[G_{i+j} + 1 - p][j].
 void PolynomialSeries::tabulateTails(int x) {
   const SeriesNode& v = plan_[x];
-  const double *table = mass(v), *total = &total_[at(x * stride())];
-  double* s1 = &s1_[at(x * stride())];
+  const double *table = mass(v), *total = &total_[x * stride()];
+  double* s1 = &s1_[x * stride()];
   std::fill(s1, s1 + stride(), 0.0);
   for (int i = 1; i < m_; ++i) s1[i] = s1[i - 1] + total[m_ - i];
   if (monomials().degree() == 0) return;
@@ -88,14 +87,13 @@ void PolynomialSeries::tabulateTails(int x) {
   }
   if (v.beyond == SeriesNode::none) return;
   std::vector<double>& from = from_;
-  from.assign(at((v.degree + 2) * stride()), 0.0);
+  from.assign((v.degree + 2) * stride(), 0.0);
   for (int q = v.degree; q >= 0; --q)
-    for (int j = 0; j < m_; ++j)
-      from[at(q * stride() + j)] = from[at((q + 1) * stride() + j)] + table[q * stride() + j];
+    for (int j = 0; j < m_; ++j) from[q * stride() + j] = from[(q + 1) * stride() + j] + table[q * stride() + j];
   for (int p = 0; p <= v.degree; ++p)
     for (int i = 0; i < m_; ++i) {
       double sum = 0;
-      for (int j = 0; i + j < m_; ++j) sum += from[at(std::max(0, plan_.gradeOf(i + j) + 1 - p) * stride() + j)];
+      for (int j = 0; i + j < m_; ++j) sum += from[std::max(0, plan_.gradeOf(i + j) + 1 - p) * stride() + j];
       beyond_[v.beyond + at(p * stride() + i)] = sum;
     }
 }
@@ -200,7 +198,7 @@ double PolynomialSeries::weightedRest(int node) const {
   double sum = 0;
   for (int g = 0; g < v.count; ++g)
     for (int i = g == 0 ? 1 : 0; i < m_; ++i)
-      sum += weights_[at(i)] * monomials().multiplicity(g) * std::fabs(series(v, g)[i]);
+      sum += weights_[i] * monomials().multiplicity(g) * std::fabs(series(v, g)[i]);
   return sum * bounds::up;
 }
 
@@ -233,7 +231,7 @@ double PolynomialSeries::productRounding(int node, int a, int b, int from, doubl
 }
 
 double PolynomialSeries::slopeRounding(int i) const {
-  const int f = plan_.outputs[at(i)];
+  const int f = plan_.outputs[i];
   if (!isFine(f)) return bounds::unit * norm_[f];
   return bounds::fine * norm_[f] + 2 * bounds::unit * coarseNorm(f, fine_.orders() - 1);
 }
@@ -273,7 +271,7 @@ double PolynomialSeries::sumOverProducts(int left, int right, bool isSlope, cons
     std::fill(out.begin() + first * stride(), out.begin() + last * stride(), 0.0);
     kernels::multiplySeries(monomials(), q, 0, factor, l.invariant ? 1 : m_, &r_[r.r], stride(), orders, out.data());
     for (int g = first; g < last; ++g)
-      for (int i = 0; i < orders; ++i) sum += term(out[at(g * stride() + i)], g, i);
+      for (int i = 0; i < orders; ++i) sum += term(out[g * stride() + i], g, i);
   }
   return sum;
 }
@@ -287,7 +285,7 @@ double PolynomialSeries::productResidual(int left, int right, int target) {
                         : 0.0);
   const double sum = sumOverProducts(left, right, false, [&](double product, int g, int i) {
     const double wanted = target >= 0 ? series(plan_[target], g)[i] : g == 0 && i == 0 ? 1.0 : 0.0;
-    return std::fabs(wanted - product) * power_[at(i)];
+    return std::fabs(wanted - product) * power_[i];
   });
   return sum + 2 * bounds::unit * (weighted_[left] * weighted_[right] + (target >= 0 ? weighted_[target] : 1.0));
 }
@@ -302,7 +300,7 @@ double PolynomialSeries::quotientResidual(int node) {
   const SeriesNode& u = plan_[l.a];
   const SeriesNode& w = plan_[l.b];
   double sum = sumOverProducts(node, l.b, true, [&](double product, int g, int i) {
-    return i == 0 ? 0.0 : std::fabs(i * series(u, g)[i] - product) / i * power_[at(i)];
+    return i == 0 ? 0.0 : std::fabs(i * series(u, g)[i] - product) / i * power_[i];
   });
   for (int g = 1; g < l.count; ++g) {
     const double s =

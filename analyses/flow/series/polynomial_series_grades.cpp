@@ -30,7 +30,7 @@ void PolynomialSeries::planProducts() {
         add(v.a, v.a, x);
         break;
       case Op::solution: {
-        const System& system = systems_[at(solutions_[at(v.a)].system)];
+        const System& system = systems_[solutions_[v.a].system];
         for (int j = 0; j < system.size; ++j) add(system.entry(v.b, j), x - v.b + j, x);
         break;
       }
@@ -91,10 +91,10 @@ void PolynomialSeries::computeByGrades(double h0) {
 void PolynomialSeries::computeLeadingGrade(double h0) {
   for (int x = 0; x < plan_.ofProgram; ++x)
     if (const SeriesNode& v = plan_[x]; v.op == Op::state && !plan_.withFrame) {
-      std::copy_n(series(v), stride(), &thin_.known[at(x * stride())]);
+      std::copy_n(series(v), stride(), &thin_.known[x * stride()]);
     }
   for (int node = plan_.time + 1; node < plan_.ofProgram; ++node) computeLeadingValue(node);
-  for (int x = 0; x < plan_.size(); ++x) thin_.current[at(x)] = leadingOf(x);
+  for (int x = 0; x < plan_.size(); ++x) thin_.current[x] = leadingOf(x);
   if (m_ > 1) kernels::thinRecursion(thin_, plan_.time, m_, h0);
   std::fill(grades_.sums.begin(), grades_.sums.end(), 0.0);
   for (int x = 0; x < plan_.size(); ++x) {
@@ -148,7 +148,7 @@ void PolynomialSeries::multiplyGrade(int q) {
   if (!plan_.withFrame || q > plan_.frameDegree) return;
   for (int row = 0; row < plan_.states; ++row)
     for (int column = 0; column < plan_.states; ++column) {
-      double* out = clear(&grades_.frameProducts[at((row * plan_.states + column) * plan_.frameCount * stride())]);
+      double* out = clear(&grades_.frameProducts[(row * plan_.states + column) * plan_.frameCount * stride()]);
       for (int k = 0; k < plan_.states; ++k) {
         const SeriesNode& a = plan_[plan_.jacobian(row, k)];
         if (!a.constant) multiply(series(a), a, plan_[plan_.frameNode(k, column)], false, out);
@@ -169,8 +169,7 @@ void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
       load(series(v), 0, v.invariant ? 1 : orders, lane(target, 0));
   for (int e = 0; e < entries; ++e) {
     load(series(plan_.ofProgram + e), 0, 1, lane(plan_.ofProgram + e, 0));
-    load(&grades_.frameProducts[at(e * plan_.frameCount * stride())], 0, orders,
-         &grades_.frameLanes[at(e * stride() * lanes)]);
+    load(&grades_.frameProducts[e * plan_.frameCount * stride()], 0, orders, &grades_.frameLanes[e * stride() * lanes]);
   }
   for (int i = 0; i < orders; ++i) {
     for (int x = 0; x < plan_.ofProgram; ++x) {
@@ -183,7 +182,7 @@ void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
     }
     if (!plan_.withFrame) continue;
     for (int s = 0; s < plan_.states; ++s) {
-      const double* from = lane(plan_.outputs[at(s)], i);
+      const double* from = lane(plan_.outputs[s], i);
       double* to = lane(s, i + 1);
       for (int l = 0; l < lanes; ++l) to[l] = from[l] * h0 / (i + 1);
     }
@@ -192,7 +191,7 @@ void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
   // x' = v keeps what v has.
   for (int i = orders; plan_.withFrame && i < m_; ++i)
     for (int s = 0; s < plan_.states; ++s) {
-      const int slope = plan_.outputs[at(s)];
+      const int slope = plan_.outputs[s];
       const double* from = lane(slope, i);
       double* to = lane(s, i + 1);
       for (int l = 0; l < lanes; ++l) to[l] = slope < plan_.states ? from[l] * h0 / (i + 1) : 0.0;
@@ -205,7 +204,7 @@ void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
     const int computed = v.invariant && v.op != Op::state ? 1 : orders;
     const int end = v.op != Op::state ? computed : plan_.withFrame ? m_ + 1 : m_;
     kernels::sumLanes(lane(x, 0), end, multiplicities, &grades_.sums[v.t + at(q * stride())],
-                      &grades_.weighted[at(x * stride())]);
+                      &grades_.weighted[x * stride()]);
     if (!grades_.isKept[x]) continue;
     kernels::storeLanes(lane(x, 0), end, count, series(v, first), stride());
     if (v.r != SeriesNode::none)
@@ -266,8 +265,8 @@ void PolynomialSeries::computeLane(int node, int i, int q) {
 
 /// A₀₀ x_{iα} = b_{iα} - what products of lower grades make - Σ (A_{j0} x_{i-j,α} + A_{jα} x_{i-j,0}), but for A₀₀.
 void PolynomialSeries::computeSolutionLanes(int first, int i) {
-  Solution& solution = solutions_[at(plan_[first].a)];
-  const System& system = systems_[at(solution.system)];
+  Solution& solution = solutions_[plan_[first].a];
+  const System& system = systems_[solution.system];
   const int n = system.size;
   double* right = rightSides_.data();
   double terms = 0;
@@ -282,10 +281,10 @@ void PolynomialSeries::computeSolutionLanes(int first, int i) {
       kernels::convolveLanes(series(a), 1, orders, lane(first + j, 0), i, sum);
       kernels::convolveLanes(series(first + j), i - orders, i, lane(entry, 0), i, sum);
     }
-    const double* b = lane(solution.rightSide[at(k)], i);
+    const double* b = lane(solution.rightSide[k], i);
     for (int l = 0; l < lanes; ++l) right[l * n + k] = b[l] - sum[l];
   }
-  for (int l = 0; l < lanes; ++l) system.factors.solve(right + l * n, &solution.residual[at(i * n)]);
+  for (int l = 0; l < lanes; ++l) system.factors.solve(right + l * n, &solution.residual[i * n]);
   for (int k = 0; k < n; ++k)
     for (int l = 0; l < lanes; ++l) lane(first + k, i)[l] = right[l * n + k];
   Work::count(Work::matrixTerm, lanes * (4.0 * n * n + terms * i / 4));
@@ -295,7 +294,7 @@ void PolynomialSeries::computeSolutionLanes(int first, int i) {
 void PolynomialSeries::computeFrameLanes(int i, double h0) {
   for (int row = 0; row < plan_.states; ++row)
     for (int column = 0; column < plan_.states; ++column) {
-      double* sum = &grades_.frameLanes[at(((row * plan_.states + column) * stride() + i) * lanes)];
+      double* sum = &grades_.frameLanes[((row * plan_.states + column) * stride() + i) * lanes];
       for (int k = 0; k < plan_.states; ++k) {
         const int entry = plan_.jacobian(row, k), other = plan_.frameNode(k, column);
         if (plan_[entry].isZero) continue;

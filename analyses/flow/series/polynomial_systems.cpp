@@ -18,8 +18,8 @@ void PolynomialSeries::planSystems(const Program& program) {
   // A transposed solution is one of the transposed matrix, which is a system of its own.
   std::vector<int> numbers(2 * program.matrices().size(), -1);
   for (const LinearSolution& solution : program.solutions()) {
-    const LinearMatrix& matrix = program.matrices()[at(solution.matrix)];
-    int& number = numbers[at(2 * solution.matrix + (solution.transposed ? 1 : 0))];
+    const LinearMatrix& matrix = program.matrices()[solution.matrix];
+    int& number = numbers[2 * solution.matrix + (solution.transposed ? 1 : 0)];
     if (number < 0) {
       number = static_cast<int>(systems_.size());
       const int n = matrix.size;
@@ -27,12 +27,12 @@ void PolynomialSeries::planSystems(const Program& program) {
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
           system.entries.push_back(solution.transposed ? matrix.entry(j, i) : matrix.entry(i, j));
-      system.own.assign(at(n * n), 0.0);
-      system.defects.assign(at(n * n * kernels::reversedStride(stride())), 0.0);
-      system.norms.assign(at(n * n), 0.0);
+      system.own.assign(n * n, 0.0);
+      system.defects.assign(n * n * kernels::reversedStride(stride()), 0.0);
+      system.norms.assign(n * n, 0.0);
       systems_.push_back(std::move(system));
     }
-    solutions_.push_back({number, solution.rightSide, {}, std::vector<double>(at(matrix.size * m_), 0.0)});
+    solutions_.push_back({number, solution.rightSide, {}, std::vector<double>(matrix.size * m_, 0.0)});
     largestSystem_ = std::max(largestSystem_, matrix.size);
   }
   if (systems_.empty()) return;
@@ -59,23 +59,23 @@ void PolynomialSeries::factorise(System& system) {
 
 /// Order 0 of the coefficients of 1.
 void PolynomialSeries::computeLeadingSolution(int first) {
-  Solution& solution = solutions_[at(plan_[first].a)];
-  System& system = systems_[at(solution.system)];
+  Solution& solution = solutions_[plan_[first].a];
+  System& system = systems_[solution.system];
   if (!system.isFactorised) factorise(system);
   std::vector<double>& x = scratch2_;
-  for (int k = 0; k < system.size; ++k) x[at(k)] = leadingOf(solution.rightSide[at(k)]);
+  for (int k = 0; k < system.size; ++k) x[k] = leadingOf(solution.rightSide[k]);
   std::fill_n(solution.residual.begin(), system.size, 0.0);
   system.factors.solve(x.data(), solution.residual.data());
-  for (int k = 0; k < system.size; ++k) put(plan_[first + k], 0, 0, x[at(k)]);
+  for (int k = 0; k < system.size; ++k) put(plan_[first + k], 0, 0, x[k]);
 }
 
 void PolynomialSeries::computeSolution(int first, int i) {
   const SeriesNode& v = plan_[first];
-  Solution& solution = solutions_[at(v.a)];
-  System& system = systems_[at(solution.system)];
+  Solution& solution = solutions_[v.a];
+  System& system = systems_[solution.system];
   if (!system.isFactorised) factorise(system);
   const int n = system.size, N = plan_.countOf(v, i);
-  std::fill_n(&solution.residual[at(i * n)], n, 0.0);
+  std::fill_n(&solution.residual[i * n], n, 0.0);
   const auto* pairs = monomials().pairs().data();
   const auto* start = monomials().first().data();
   const auto x = [&](int k) -> const SeriesNode& { return plan_[first + k]; };
@@ -85,7 +85,7 @@ void PolynomialSeries::computeSolution(int first, int i) {
     for (int g = 0; g < N; ++g) put(x(k), g, i, 0.0);
   for (int k = 0; k < n; ++k) {
     double* out = right + k * count();
-    const double* b = series(solution.rightSide[at(k)]);
+    const double* b = series(solution.rightSide[k]);
     for (int g = 0; g < N; ++g) out[g] = b[g * stride() + i];
     for (int j = 0; j < n && i > 0; ++j) {
       const SeriesNode& a = plan_[system.entry(k, j)];
@@ -114,7 +114,7 @@ void PolynomialSeries::computeSolution(int first, int i) {
       }
       values[k] = s;
     }
-    system.factors.solve(values, &solution.residual[at(i * n)]);
+    system.factors.solve(values, &solution.residual[i * n]);
     for (int k = 0; k < n; ++k) put(x(k), g, i, values[k]);
   }
 }
@@ -123,7 +123,7 @@ void PolynomialSeries::computeSolution(int first, int i) {
 void PolynomialSeries::invert(System& system) {
   const int n = system.size;
   const std::vector<double>& leading = system.factors.inverse();
-  std::vector<double> sum(at(n * n));
+  std::vector<double> sum(n * n);
   const auto coefficient = [&](int i, int j, int g, int o) {
     const SeriesNode& a = plan_[system.entry(i, j)];
     return g < a.count ? series(a, g)[o] : 0.0;
@@ -132,7 +132,7 @@ void PolynomialSeries::invert(System& system) {
     for (int k = 0; k < n; ++k)
       for (int j = 0; j < n; ++j)
         if (const double entry = coefficient(k, j, g, o); entry != 0)
-          for (int i = 0; i < n; ++i) sum[at(i * n + j)] += c[at(i * n + k)] * entry;
+          for (int i = 0; i < n; ++i) sum[i * n + j] += c[i * n + k] * entry;
   };
   system.inverse.resize(inverseTerms_.size());
   for (std::size_t t = 0; t < inverseTerms_.size(); ++t) {
@@ -146,11 +146,11 @@ void PolynomialSeries::invert(System& system) {
     if (symbol >= 0)
       addProduct(leading, monomials().linear(symbol), 0);
     else  // the orders come first
-      for (int j = 1; j <= order; ++j) addProduct(system.inverse[at(order - j)], 0, j);
-    c.assign(at(n * n), 0.0);
+      for (int j = 1; j <= order; ++j) addProduct(system.inverse[order - j], 0, j);
+    c.assign(n * n, 0.0);
     for (int i = 0; i < n; ++i)
       for (int k = 0; k < n; ++k)
-        for (int j = 0; j < n; ++j) c[at(i * n + j)] -= sum[at(i * n + k)] * leading[at(k * n + j)];
+        for (int j = 0; j < n; ++j) c[i * n + j] -= sum[i * n + k] * leading[k * n + j];
   }
 }
 
@@ -162,15 +162,15 @@ void PolynomialSeries::multiplyByInverse(System& system) {
   std::vector<int> counts;
   int last = 0;
   for (int t = 0; t < terms; ++t) {
-    const int symbol = inverseTerms_[at(t)].second;
-    counts.push_back(kept[at(t)] > 0 ? monomials().countUpTo(kept[at(t)] - 1) : 0);
-    last = std::max(last, kept[at(t)] - 1 + (symbol < 0 ? 0 : monomials().weight(symbol)));
+    const int symbol = inverseTerms_[t].second;
+    counts.push_back(kept[t] > 0 ? monomials().countUpTo(kept[t] - 1) : 0);
+    last = std::max(last, kept[t] - 1 + (symbol < 0 ? 0 : monomials().weight(symbol)));
   }
   const int targets = monomials().countUpTo(last);
   double multiplied = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      double *product = combination_.data(), *defect = &system.defects[at((i * n + j) * width)];
+      double *product = combination_.data(), *defect = &system.defects[(i * n + j) * width];
       std::fill_n(product, targets * width, 0.0);
       std::fill_n(defect, width, 0.0);
       for (int k = 0; k < n; ++k) {
@@ -179,14 +179,14 @@ void PolynomialSeries::multiplyByInverse(System& system) {
         if (plan_[entry].isZero) continue;
         const int orders = a.invariant ? 1 : m_;  // a state's last order belongs to its error
         for (int t = 0; t < terms; ++t) {
-          const double c = system.inverse[at(t)][at(i * n + k)];
+          const double c = system.inverse[t][i * n + k];
           if (c == 0) continue;
-          const auto [order, symbol] = inverseTerms_[at(t)];
-          const int from = std::min(a.constant ? 1 : a.count, counts[at(t)]);
-          kernels::addRows(series(a), stride(), from, c, orders, symbol < 0 ? nullptr : &shift_[at(symbol * count())],
+          const auto [order, symbol] = inverseTerms_[t];
+          const int from = std::min(a.constant ? 1 : a.count, counts[t]);
+          kernels::addRows(series(a), stride(), from, c, orders, symbol < 0 ? nullptr : &shift_[symbol * count()],
                            product + order, width);
           multiplied += static_cast<double>(orders) * from;
-          const double* rest = massFrom(system, kept[at(t)], k, j);
+          const double* rest = massFrom(system, kept[t], k, j);
           for (int o = 0; o < m_; ++o) defect[o + order] += std::fabs(c) * rest[o];
         }
       }
@@ -201,10 +201,10 @@ void PolynomialSeries::multiplyByInverse(System& system) {
 std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
   constexpr double negligible = 1e-3;
   const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), grades = monomials().degree() + 1;
-  mass_.assign(at((grades + 1) * n * n * stride()), 0.0);
+  mass_.assign((grades + 1) * n * n * stride(), 0.0);
   std::vector<double>& unit = vector_;
-  for (int i = 0; i < n; ++i) unit[at(i)] = *std::max_element(&system.norms[at(i * n)], &system.norms[at(i * n)] + n);
-  std::vector<double> rows(at((grades + 1) * n), 0.0);  // Σ_j |Ã_{kj}| from a grade on
+  for (int i = 0; i < n; ++i) unit[i] = *std::max_element(&system.norms[i * n], &system.norms[i * n] + n);
+  std::vector<double> rows((grades + 1) * n, 0.0);  // Σ_j |Ã_{kj}| from a grade on
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j) {
       const int entry = system.entry(k, j);
@@ -216,18 +216,18 @@ std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
         const int first = monomials().firstOf(q), end = std::min(all, monomials().countUpTo(q));
         std::copy_n(above, m_, sizes);
         kernels::addRowSizes(series(a, first), stride(), end - first, orders, sizes);
-        for (int o = 0; o < m_; ++o) sum += sizes[o] * power_[at(o)];
-        rows[at(q * n + k)] += sum * unit[at(j)];
+        for (int o = 0; o < m_; ++o) sum += sizes[o] * power_[o];
+        rows[q * n + k] += sum * unit[j];
       }
     }
   std::vector<int> kept;
   for (int t = 0; t < terms; ++t) {
-    const auto [order, symbol] = inverseTerms_[at(t)];
+    const auto [order, symbol] = inverseTerms_[t];
     const auto isNegligible = [&](int q) {
       for (int i = 0; i < n; ++i) {
         double sum = 0;
-        for (int k = 0; k < n; ++k) sum += std::fabs(system.inverse[at(t)][at(i * n + k)]) * rows[at(q * n + k)];
-        if (!(sum * power_[at(order)] <= negligible / terms * unit[at(i)])) return false;
+        for (int k = 0; k < n; ++k) sum += std::fabs(system.inverse[t][i * n + k]) * rows[q * n + k];
+        if (!(sum * power_[order] <= negligible / terms * unit[i])) return false;
       }
       return true;
     };
@@ -247,7 +247,7 @@ void PolynomialSeries::tabulateSystem(System& system) {
   std::fill(system.norms.begin(), system.norms.end(), 0.0);
   for (int t = 0; t < terms; ++t)
     for (std::size_t i = 0; i < system.norms.size(); ++i)
-      system.norms[i] += std::fabs(system.inverse[at(t)][i]) * power_[at(inverseTerms_[at(t)].first)];
+      system.norms[i] += std::fabs(system.inverse[t][i]) * power_[inverseTerms_[t].first];
   for (double& entry : system.norms) entry *= bounds::up;
   if (!(theta <= 2 * system.multipliedFor)) {  // what is negligible in a short step need not be in a longer one
     multiplyByInverse(system);
@@ -256,10 +256,10 @@ void PolynomialSeries::tabulateSystem(System& system) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       double size = i == j ? 1 : 0, sum = 0, power = 1;
-      for (int k = 0; k < n; ++k) size += system.norms[at(i * n + k)] * norm_[system.entry(k, j)];
-      const double* defect = &system.defects[at((i * n + j) * width)];
+      for (int k = 0; k < n; ++k) size += system.norms[i * n + k] * norm_[system.entry(k, j)];
+      const double* defect = &system.defects[(i * n + j) * width];
       for (int o = 0; o < m_ + inverseOrder; ++o, power *= theta) sum += defect[o] * power;
-      system.own[at(i * n + j)] = (sum + (n * terms + 2) * bounds::unit * size) * bounds::up + bounds::tiny;
+      system.own[i * n + j] = (sum + (n * terms + 2) * bounds::unit * size) * bounds::up + bounds::tiny;
     }
 }
 
@@ -270,10 +270,10 @@ bool PolynomialSeries::boundSystem(System& system) {
   double* H = system.amplifier.matrix(n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      double s = system.own[at(i * n + j)];
+      double s = system.own[i * n + j];
       for (int k = 0; k < n; ++k) {
         const int entry = system.entry(k, j);
-        s += C[at(i * n + k)] * (rho_[entry].e0 + rho_[entry].e1 + lowOf(entry));
+        s += C[i * n + k] * (rho_[entry].e0 + rho_[entry].e1 + lowOf(entry));
       }
       H[i * n + j] = s * bounds::up + bounds::tiny;
     }
@@ -287,17 +287,16 @@ bool PolynomialSeries::boundSystem(System& system) {
 /// the second doubles, 5T + 7 roundings of |A||x̃|.
 void PolynomialSeries::solutionOwnErrors(int first) {
   const SeriesNode& v = plan_[first];
-  const Solution& solution = solutions_[at(v.a)];
-  const System& system = systems_[at(solution.system)];
+  const Solution& solution = solutions_[v.a];
+  const System& system = systems_[solution.system];
   const int n = system.size;
   for (int k = 0; k < n; ++k) {
-    const int b = solution.rightSide[at(k)];
+    const int b = solution.rightSide[k];
     const int terms = termsIn(system, k);
     const bool fine = isFine(first);
     double residual = 0;
     for (int i = 0; i < (v.invariant ? 1 : m_); ++i)
-      residual +=
-          (i < fine_.orders() && fine ? fine_.residual(v.a, k, i) : solution.residual[at(i * n + k)]) * power_[at(i)];
+      residual += (i < fine_.orders() && fine ? fine_.residual(v.a, k, i) : solution.residual[i * n + k]) * power_[i];
     double rounding = (2 * terms + 1) * norm_[b] + 3 * (terms + 1) * system.factors.size(k, &norm_[first]);
     double coarse = fine ? (2 * terms + 1) * coarseNorm(b, fine_.orders()) : 0.0;
     double e0 = 2 * residual + (isGraded() ? dropped(b, v.degree) : 0.0), e1 = 0;
@@ -315,29 +314,29 @@ void PolynomialSeries::solutionOwnErrors(int first) {
 }
 
 bool PolynomialSeries::boundSolution(int first) {
-  const Solution& solution = solutions_[at(plan_[first].a)];
-  System& system = systems_[at(solution.system)];
+  const Solution& solution = solutions_[plan_[first].a];
+  System& system = systems_[solution.system];
   if (!system.isBounded && !boundSystem(system)) return false;
   const int n = system.size;
   std::vector<double>&residual0 = vector_, &residual1 = vector2_;
   const auto low = [&](int node) { return isFine(first) ? 0.0 : lowOf(node); };
   for (int k = 0; k < n; ++k) {
-    const int b = solution.rightSide[at(k)];
+    const int b = solution.rightSide[k];
     double e0 = own_[first + k].e0 + rho_[b].e0 + low(b), e1 = own_[first + k].e1 + rho_[b].e1;
     for (int j = 0; j < n; ++j) {
       const int a = system.entry(k, j);
       e0 += (rho_[a].e0 + low(a)) * norm_[first + j];
       e1 += rho_[a].e1 * norm_[first + j];
     }
-    residual0[at(k)] = e0;
-    residual1[at(k)] = e1;
+    residual0[k] = e0;
+    residual1[k] = e1;
   }
   bool isFinite = true;
   for (int i = 0; i < n; ++i) {
     double e0 = 0, e1 = 0;
     for (int k = 0; k < n; ++k) {
-      e0 += system.amplifier(i, k) * residual0[at(k)];
-      e1 += system.amplifier(i, k) * residual1[at(k)];
+      e0 += system.amplifier(i, k) * residual0[k];
+      e1 += system.amplifier(i, k) * residual1[k];
     }
     rho_[first + i] = {e0 * bounds::up + bounds::tiny, e1 * bounds::up + bounds::tiny};
     isFinite = isFinite && isBelowLargest(first + i);

@@ -8,7 +8,7 @@
 
 namespace gamut {
 
-SeriesKinks::SeriesKinks(const ByNumber<SeriesNode>& nodes) : arguments_(nodes.size()) {
+SeriesKinks::SeriesKinks(const std::vector<SeriesNode>& nodes) : arguments_(nodes.size()) {
   for (const SeriesNode& node : nodes) {
     if (node.op == Op::sign && node.primary) jumps_.push_back(static_cast<int>(kinks_.size()));
     kinks_.push_back({node.a, {}, 0, {}, 0, false, false});

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "analyses/flow/series/by_number.hpp"
 #include "analyses/flow/series/series_plan.hpp"
 #include "scalars/interval.hpp"
 
@@ -12,7 +11,7 @@ namespace gamut {
 
 class SeriesKinks {
  public:
-  explicit SeriesKinks(const ByNumber<SeriesNode>& nodes);
+  explicit SeriesKinks(const std::vector<SeriesNode>& nodes);
 
   /// |u| ≈ slope u + middle.
   struct Chord {
@@ -68,7 +67,7 @@ class SeriesKinks {
   void forgetCrossings();
 
   /// How far u may be from what it is about, until forgetAtStart: at the start of the step.
-  void keepAtStart(const ByNumber<double>& uncertain) { atStart_ = uncertain; }
+  void keepAtStart(const std::vector<double>& uncertain) { atStart_ = uncertain; }
   void forgetAtStart() { atStart_.clear(); }
   double atStart(int u) const { return atStart_[u]; }
   /// Whether u = centre, which moves by M of the V that it varies by, ± rho may change its sign, or be zero, in the
@@ -77,11 +76,11 @@ class SeriesKinks {
   bool mayCross(int u, double centre, double V, double M, double rho, double& haste);
 
  private:
-  ByNumber<Kink> kinks_;          // [node]
-  ByNumber<Argument> arguments_;  // [node]
+  std::vector<Kink> kinks_;          // [node]
+  std::vector<Argument> arguments_;  // [node]
   std::vector<int> jumps_;
   bool hasJumped_ = false;
-  ByNumber<double> atStart_;
+  std::vector<double> atStart_;
 };
 
 }  // namespace gamut

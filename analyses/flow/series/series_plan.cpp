@@ -7,6 +7,7 @@
 
 #include "analyses/flow/series/kernels.hpp"
 #include "analyses/flow/series/operations/all.hpp"
+#include "scalars/index.hpp"
 
 namespace gamut {
 
@@ -39,13 +40,13 @@ SeriesPlan::SeriesPlan(const Program& program, int primaryOutputs, std::shared_p
 /// Of each node, whether the first outputs need it.
 std::vector<char> SeriesPlan::primaryOf(const Program& program, int primaryOutputs) const {
   std::vector<char> primary(program.nodes().size(), 0);
-  for (int i = 0; i < primaryOutputs; ++i) primary[at(outputs[at(i)])] = 1;
+  for (int i = 0; i < primaryOutputs; ++i) primary[outputs[i]] = 1;
   for (std::size_t i = primary.size(); i-- > 0;) {
     if (!isOperation(program.nodes()[i].op)) primary[i] = 1;
     if (!primary[i]) continue;
     const int node = static_cast<int>(i);
-    detail::forEachTwin(program.table(), node, [&](int twin) { primary[at(twin)] = 1; });
-    detail::forEachOperand(program.table(), node, [&](int operand) { primary[at(operand)] = 1; });
+    detail::forEachTwin(program.table(), node, [&](int twin) { primary[twin] = 1; });
+    detail::forEachOperand(program.table(), node, [&](int operand) { primary[operand] = 1; });
   }
   return primary;
 }
@@ -63,13 +64,13 @@ void SeriesPlan::planNodes(const Program& program, const std::vector<char>& prim
     nodes.push_back(v);
   };
   for (int i = 0; i < ofProgram; ++i) {
-    const Node& node = program.nodes()[at(i)];
-    SeriesNode v{node.op, node.a, node.b, 0, 0, primary[at(i)] != 0, program.isInvariant(i), false};
+    const Node& node = program.nodes()[i];
+    SeriesNode v{node.op, node.a, node.b, 0, 0, primary[i] != 0, program.isInvariant(i), false};
     v.degree = v.primary ? monomials->degree() : frameDegree;
     if (isFunction(v.op)) isConvex = isConvex && withFunction<FlowFunction>(v.op, [](auto f) { return f.isConvex; });
     if (v.op == Op::constant) {
       v.constant = true;
-      const Interval& c = program.constants()[at(v.a)];
+      const Interval& c = program.constants()[v.a];
       constants[i] = midpoint(c);
       radii[i] = isThin(c) ? 0.0 : radius(c);
       v.isZero = constants[i] == 0 && radii[i] == 0;
@@ -132,8 +133,8 @@ void SeriesPlan::planFactors() {
 /// what both together make less than what lies beyond the degree is left to the certificate.
 void SeriesPlan::planOrders(int order) {
   const int degree = monomials->degree();
-  grades.assign(at(order + 1), degree);
-  counts.assign(at(order + 1), monomials->count());
+  grades.assign(order + 1, degree);
+  counts.assign(order + 1, monomials->count());
   if (order == 1 || monomials->pairs().size() < manyPairs) return;
   constexpr double s = 0.05, share = 0.02;
   const double rho = std::pow(std::tgamma(order + 1.0) * std::pow(10, -0.5 * (order + 8)), 1.0 / order);
@@ -141,8 +142,8 @@ void SeriesPlan::planOrders(int order) {
   for (int i = 0; i <= order; size *= rho / ++i) {
     int grade = degree;
     while (grade > std::max(frameDegree, 1) && size * std::pow(s, grade - degree - 1) < share) --grade;
-    grades[at(i)] = grade;
-    counts[at(i)] = monomials->countUpTo(grade);
+    grades[i] = grade;
+    counts[i] = monomials->countUpTo(grade);
     isCut = isCut || grade < degree;
   }
 }

@@ -7,9 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "analyses/flow/series/by_number.hpp"
 #include "analyses/flow/series/monomials.hpp"
-#include "scalars/index.hpp"
 #include "scalars/program/program.hpp"
 
 namespace gamut {
@@ -38,11 +36,11 @@ struct SeriesPlan {
   const SeriesNode& operator[](int node) const { return nodes[node]; }
   int size() const { return static_cast<int>(nodes.size()); }
   int frameNode(int i, int j) const { return ofProgram + i * states + j; }
-  int jacobian(int i, int j) const { return outputs[detail::at(states + i * states + j)]; }  ///< ∂f_i/∂x_j
+  int jacobian(int i, int j) const { return outputs[states + i * states + j]; }  ///< ∂f_i/∂x_j
   /// Of an order in time, no higher grades than these are computed; states have those of an order before, of x' = v of
   /// one before that.
-  int gradeOf(int order) const { return grades[detail::at(order)]; }
-  int countOf(const SeriesNode& v, int order) const { return std::min(v.count, counts[detail::at(order)]); }
+  int gradeOf(int order) const { return grades[order]; }
+  int countOf(const SeriesNode& v, int order) const { return std::min(v.count, counts[order]); }
 
   std::shared_ptr<const Monomials> monomials;
   int states, time;  ///< the node of time is behind states and parameters
@@ -54,9 +52,9 @@ struct SeriesPlan {
   bool isByGrades;       ///< the recursion goes by grades, not by orders
   bool isConvex = true;  ///< bounds are, in those of states and inputs
   bool hasKinks;
-  ByNumber<SeriesNode> nodes;
+  std::vector<SeriesNode> nodes;
   std::vector<int> outputs;
-  ByNumber<double> constants, radii;  ///< of constants
+  std::vector<double> constants, radii;  ///< of constants
   struct Sizes {
     std::size_t f = 0, r = 0, d = 0, t = 0, s2 = 0, beyond = 0, z = 0, inverse = 0;
   } sizes;  ///< of the arrays in which nodes have places

@@ -53,14 +53,14 @@ std::vector<double> FlowStepper::symbolMass(std::vector<double>& byGrade) const 
       for (int order = 0; order <= m_; ++order, power *= theta_)
         size += std::fabs(series_.series(node)[g * series_.stride() + order]) * power;
       size /= unit;
-      byGrade[at(m.grade(g))] += size;
+      byGrade[m.grade(g)] += size;
       if (m.grade(g) >= from)
-        for (int l = 0; l < m.symbols(); ++l) mass[at(l)] += m.exponent(g, l) * size;
+        for (int l = 0; l < m.symbols(); ++l) mass[l] += m.exponent(g, l) * size;
     }
   };
   const auto isFound = [&](int from, int nodes, bool areStates) {
-    mass.assign(at(m.symbols()), 0.0);
-    byGrade.assign(at(m.degree() + 1), 0.0);
+    mass.assign(m.symbols(), 0.0);
+    byGrade.assign(m.degree() + 1, 0.0);
     for (int node = 0; node < nodes; ++node) {
       const double unit = areStates ? scale_[node] : series_.norm(node);
       if (areStates || (unit > 0 && std::isfinite(unit))) add(node, from, unit);
@@ -88,7 +88,7 @@ GradeDecay FlowStepper::decay() const {
   const int d = monomials().degree();
   if (d < 2) return {1.0, 1.0, 1.0};
   // Over two grades: odd or even ones may be empty.
-  const double high = byGrade[at(d)] + byGrade[at(d - 1)], low = byGrade[at(d - 1)] + byGrade[at(d - 2)];
+  const double high = byGrade[d] + byGrade[d - 1], low = byGrade[d - 1] + byGrade[d - 2];
   return {low > 0 ? high / low : 1.0, squares > 0 ? sum * sum / squares : 1.0,
           byGrade[1] > 0 ? high / byGrade[1] : 1.0};
 }
@@ -103,23 +103,23 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
     for (int i = 0; i < n_; ++i) {
       double norm = 0;
       for (int g = 0; g < N; ++g) norm += std::fabs(set.p[i * N + g]);
-      shift.substitute(symbol, middle, 0.5, &set.p[i * N], &s.p[at(i * N)]);
+      shift.substitute(symbol, middle, 0.5, &set.p[i * N], &s.p[i * N]);
       if (norm != 0)  // zero stays zero, exactly: what rests does so in both halves
-        s.W[at(i)] = (s.W[at(i)] + shift.shiftError() * norm) * bounds::up + bounds::tiny;
+        s.W[i] = (s.W[i] + shift.shiftError() * norm) * bounds::up + bounds::tiny;
     }
     if (!set.ahead.c.empty()) {
       shift.substitute(symbol, middle, 0.5, set.ahead.c.data(), s.ahead.c.data());
       s.ahead.error = (s.ahead.error + shift.shiftError() * set.ahead.norm()) * bounds::up + bounds::tiny;
     }
-    std::vector<double> rounding(at(n_), 0.0);
+    std::vector<double> rounding(n_, 0.0);
     shift.substitute(symbol, middle, 0.5, set.generators.data(), s.generators.data(), static_cast<int>(set.powers),
                      block);
     addColumnSizes(set.generators, rounding);
     for (double& size : rounding) size *= shift.shiftError();
     addFramed(s, rounding);
     if (at(symbol) < s.inputsOfXi.size()) {  // Γ + ξ Γ_l, one rounding an entry: |C| times that
-      std::vector<double>& ofXi = s.inputsOfXi[at(symbol)];
-      std::vector<double> moved(at(n_), 0.0);
+      std::vector<double>& ofXi = s.inputsOfXi[symbol];
+      std::vector<double> moved(n_, 0.0);
       for (std::size_t c = 0; c < ofXi.size(); ++c) {
         s.inputs[c] += middle * ofXi[c];
         moved[c % at(n_)] += bounds::unit * std::fabs(s.inputs[c]);

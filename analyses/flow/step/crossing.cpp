@@ -79,8 +79,8 @@ Box FlowStepper::boxAtStart(const FlowSet& set) const {
   Box box;
   for (int i = 0; i < n_; ++i) {
     LinearForm own;
-    own.states.assign(at(n_), 0.0);
-    own.states[at(i)] = 1;
+    own.states.assign(n_, 0.0);
+    own.states[i] = 1;
     box.push_back(argumentOf(set, own, total_));
   }
   return box;
@@ -89,7 +89,7 @@ Box FlowStepper::boxAtStart(const FlowSet& set) const {
 /// Wherever states are that are no farther than this from their polynomials in the step.
 Box FlowStepper::boxWithin(const std::vector<double>& reach) const {
   Box box;
-  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, reach[at(i)]));
+  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, reach[i]));
   return box;
 }
 
@@ -248,7 +248,7 @@ double FlowStepper::changedBy(const StepCrossing& other, const StepCrossing& cro
 /// The integral of ũ from the moment m(ξ) on, by orders of σ.
 std::vector<BoundedPolynomial> FlowStepper::areaOf(const std::vector<BoundedPolynomial>& u,
                                                    const BoundedPolynomial& moment) const {
-  std::vector<BoundedPolynomial> area(1, {std::vector<double>(at(series_.count()), 0.0)});
+  std::vector<BoundedPolynomial> area(1, {std::vector<double>(series_.count(), 0.0)});
   for (std::size_t order = 0; order < u.size(); ++order)
     area.emplace_back(u[order]) *= h0_ / static_cast<double>(order + 1);
   for (std::size_t order = 1; order < area.size(); ++order)  // the quotient's own rounding
@@ -324,20 +324,20 @@ void FlowStepper::boundCurvature(StepCrossing& crossing, double longest, std::ve
       spread += most * besides(other.norm(), B) + besides(most, J) * std::fabs(B);
     }
     spread += (2 * n_ + 2) * bounds::unit * size;
-    crossing.curvature[at(i)] = K;
+    crossing.curvature[i] = K;
     const double off = crossing.arrives ? push.of->rho0(push.node) + push.of->rho1(push.node)
                                         : series_.meanRho(push.node).e0 + series_.meanRho(push.node).e1;
-    rest[at(i)] += std::fabs(crossing.change()) * (off + longest * spread);
+    rest[i] += std::fabs(crossing.change()) * (off + longest * spread);
   }
 }
 
 /// |u| = before u until it passes, -before u from then on. With B about ∂f/∂|u|, D = -2 before B ∫(ũ + c·Ψ̃(r + Γs))
 /// from then on, so |D| ≤ Kℓ² + 2 drift ℓ, K = |B u̇|. False if rates or pushes are not bounded.
 bool FlowStepper::boundCurvatureOfKink(StepCrossing& crossing, double longest, std::vector<double>& rest) {
-  const Interval rate = kinkRates_[at(crossing.kink)];
+  const Interval rate = kinkRates_[crossing.kink];
   const std::vector<Interval> push = kinks_->pushOf(at(crossing.kink));
   double apart = 0;  // of u and ũ + c·Ψ̃(r + Γs)
-  for (int i = 0; i < n_; ++i) apart += std::fabs(crossing.form->states[at(i)]) * looseBound(i);
+  for (int i = 0; i < n_; ++i) apart += std::fabs(crossing.form->states[i]) * looseBound(i);
   crossing.apart = apart * bounds::up;
   for (std::size_t i = 0; i < push.size(); ++i) {
     if (!isCommon(push[i] * rate)) return false;
@@ -356,11 +356,11 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
   if (crossings_.empty()) return;
   for (const StepCrossing& crossing : crossings_) series_.kinks().setApart(crossing.node, true);
   bool isBounded = series_.bound(nullptr, false);
-  std::vector<double> rest(at(n_), 0.0), last(at(n_), 0.0);
+  std::vector<double> rest(n_, 0.0), last(at(n_), 0.0);
   for (int i = 0; i < n_ && isBounded; ++i) {
     const int f = series_.outputNode(i);
-    rest[at(i)] = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
-    last[at(i)] = series_.rho1(f);
+    rest[i] = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
+    last[i] = series_.rho1(f);
   }
   for (const StepCrossing& crossing : crossings_) series_.kinks().setApart(crossing.node, false);
   isBounded = series_.bound(E_.data(), false) && isBounded;
@@ -369,22 +369,21 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
     if (isBounded && crossing.arrives) isBounded = loadHeldPush(set, crossing);
     if (!isBounded) break;
     const double longest = std::max(0.0, h_ - crossing.moments.lower()) * bounds::up;
-    crossing.curvature.assign(at(n_), 0.0);
+    crossing.curvature.assign(n_, 0.0);
     if (crossing.jump >= 0)
       boundCurvature(crossing, longest, rest);
     else
       isBounded = isBounded && boundCurvatureOfKink(crossing, longest, rest);
     for (int i = 0; i < n_ && isBounded; ++i)
       for (int j = 0; j < n_; ++j)
-        rest[at(i)] +=
-            std::fabs(crossing.change()) * series_.jacobianBound(i, j) *
-            (0.5 * longest * longest * std::fabs(crossing.curvature[at(j)]) + longest * crossing.drift(at(j)));
+        rest[i] += std::fabs(crossing.change()) * series_.jacobianBound(i, j) *
+                   (0.5 * longest * longest * std::fabs(crossing.curvature[j]) + longest * crossing.drift(at(j)));
   }
   crossed_.clear();
   for (int i = 0; i < n_; ++i) {
     double sum = inputs_.rest(i);
     for (int j = 0; j < n_; ++j)
-      sum += growth_.M1(i, j) * rest[at(j)] + growth_.M2(i, j) * last[at(j)] + growth_.M0(i, j) * set.W[j];
+      sum += growth_.M1(i, j) * rest[j] + growth_.M2(i, j) * last[j] + growth_.M0(i, j) * set.W[j];
     crossed_.push_back(sum * bounds::up + bounds::tiny);
   }
   for (StepCrossing& crossing : crossings_) isBounded = isBounded && boundMoment(set, crossing);

@@ -47,9 +47,7 @@ void FlowGrowth::setUnits(const std::vector<int>& units) {
 double FlowGrowth::balance(double h) {
   constexpr double idle = 0x1p-10;
   for (int i = 0; i < n_; ++i)
-    for (int j = 0; j < n_; ++j)
-      X_[at(i, j)] =
-          std::ldexp(A_[at(i, j)] * h, unit_[static_cast<std::size_t>(j)] - unit_[static_cast<std::size_t>(i)]);
+    for (int j = 0; j < n_; ++j) X_[at(i, j)] = std::ldexp(A_[at(i, j)] * h, unit_[j] - unit_[i]);
   for (int sweep = 0, changed = 1; changed != 0 && sweep < 40; ++sweep) {
     changed = 0;
     for (int i = 0; i < n_; ++i) {
@@ -57,7 +55,7 @@ double FlowGrowth::balance(double h) {
       for (int j = 0; j < n_; ++j)
         if (j != i) row += X_[at(i, j)], column += X_[at(j, i)];
       if (!std::isfinite(row + column)) return row + column;
-      int& unit = unit_[static_cast<std::size_t>(i)];
+      int& unit = unit_[i];
       const int tilt = std::ilogb(row) - std::ilogb(column);
       const int wanted = unit + (std::abs(tilt) < 4 ? 0 : tilt / 2);
       const int shift = std::clamp(wanted, -farthestUnit, farthestUnit) - unit;
@@ -114,8 +112,8 @@ void FlowGrowth::estimateGrowth() {
     growth_ = 0;
     for (int i = 0; i < n_; ++i) {
       double row = 0;
-      for (int j = 0; j < n_; ++j) row += X_[at(i, j)] * v_[static_cast<std::size_t>(j)];
-      w_[static_cast<std::size_t>(i)] = row;
+      for (int j = 0; j < n_; ++j) row += X_[at(i, j)] * v_[j];
+      w_[i] = row;
       growth_ = std::max(growth_, row);
     }
     if (!(growth_ > 0)) break;
@@ -136,8 +134,7 @@ void FlowGrowth::toUnits(double h) {
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {
       const std::size_t e = at(i, j);
-      const double back =
-          std::ldexp(bounds::up, unit_[static_cast<std::size_t>(i)] - unit_[static_cast<std::size_t>(j)]);
+      const double back = std::ldexp(bounds::up, unit_[i] - unit_[j]);
       M2_[e] *= h * back;
       M1_[e] *= h * back;
       M0_[e] *= back;
@@ -193,8 +190,8 @@ double FlowGrowth::exponentOf(const std::vector<double>& matrix) {
     double most = 0;
     for (int i = 0; i < n_; ++i) {
       double row = 0;
-      for (int j = 0; j < n_; ++j) row += matrix[at(i, j)] * v_[static_cast<std::size_t>(j)];
-      w_[static_cast<std::size_t>(i)] = row;
+      for (int j = 0; j < n_; ++j) row += matrix[at(i, j)] * v_[j];
+      w_[i] = row;
       most = std::max(most, row);
     }
     exponent = std::max(0.0, std::log(most));
@@ -237,9 +234,7 @@ bool FlowGrowth::follow(double h) {
   const double u = 3 * (n_ + 4) * bounds::unit;  // of a product, and sums of its size
   std::vector<double> Z(centre_.size());
   for (int i = 0; i < n_; ++i)
-    for (int j = 0; j < n_; ++j)
-      Z[at(i, j)] =
-          std::ldexp(centre_[at(i, j)] * h, unit_[static_cast<std::size_t>(j)] - unit_[static_cast<std::size_t>(i)]);
+    for (int j = 0; j < n_; ++j) Z[at(i, j)] = std::ldexp(centre_[at(i, j)] * h, unit_[j] - unit_[i]);
   const double size = normOf(Z);
   constexpr double farthest = 16, piece = 0.25;
   if (!(size < farthest)) return false;
@@ -306,9 +301,7 @@ bool FlowGrowth::computeAbout(double h) {
   inUnits(Q1_, Q1);
   inUnits(Q2_, Q2);
   for (int i = 0; i < n_; ++i)
-    for (int j = 0; j < n_; ++j)
-      N[at(i, j)] =
-          std::ldexp(spread_[at(i, j)] * h, unit_[static_cast<std::size_t>(j)] - unit_[static_cast<std::size_t>(i)]);
+    for (int j = 0; j < n_; ++j) N[at(i, j)] = std::ldexp(spread_[at(i, j)] * h, unit_[j] - unit_[i]);
   multiply(P, N, X_);
   for (int i = 0; i < n_; ++i) {
     double row = 0;
@@ -353,24 +346,23 @@ bool FlowGrowth::computeDamped(double h) {
   std::vector<double> own(static_cast<std::size_t>(n_));  // B_ii h
   double rate = 0;
   for (int i = 0; i < n_; ++i) {
-    own[static_cast<std::size_t>(i)] = std::min(diagonal_[static_cast<std::size_t>(i)] * h, X_[at(i, i)]);
-    rate = std::max(rate, -own[static_cast<std::size_t>(i)]);
+    own[i] = std::min(diagonal_[i] * h, X_[at(i, i)]);
+    rate = std::max(rate, -own[i]);
   }
   if (!(rate < 1000)) return false;
   for (int i = 0; i < n_; ++i) {
-    const double b = own[static_cast<std::size_t>(i)];
+    const double b = own[i];
     X_[at(i, i)] = std::max(0.0, b + rate) + (std::fabs(b) + rate) * 0x1p-50;
   }
   integrate(rate, M0_, M1_);
   growth_ = exponentOf(M0_);
   integrate(rate + m_, power_, M2_);
-  for (int i = 0; i < n_; ++i) X_[at(i, i)] = std::max(0.0, own[static_cast<std::size_t>(i)]) * bounds::up;
+  for (int i = 0; i < n_; ++i) X_[at(i, i)] = std::max(0.0, own[i]) * bounds::up;
   multiply(X_, M1_, M0_);
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {
       const std::size_t e = at(i, j);
-      const double back =
-          std::ldexp(bounds::up, unit_[static_cast<std::size_t>(i)] - unit_[static_cast<std::size_t>(j)]);
+      const double back = std::ldexp(bounds::up, unit_[i] - unit_[j]);
       if (!std::isfinite(M0_[e] + M1_[e] + M2_[e])) return false;
       M2_[e] = (M2_[e] + underflow) * bounds::up * h * back;
       M1_[e] = (M1_[e] + underflow) * bounds::up * h * back;

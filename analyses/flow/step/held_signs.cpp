@@ -26,10 +26,10 @@ Program heldSignsOf(const FlowJumps& jumps, const std::vector<char>& held) {
     if (held[j] == 0) continue;
     of.push_back(static_cast<int>(j));
     values[signs + j] = recorder.constant(0.0);
-    instead[at(given.outputNodes()[n + j])] = recorder.constant(0.0);
+    instead[given.outputNodes()[n + j]] = recorder.constant(0.0);
   }
   const std::vector<int> here = recorder.append(given, values, instead);
-  const auto output = [&](std::size_t o) { return here[at(given.outputNodes()[o])]; };
+  const auto output = [&](std::size_t o) { return here[given.outputNodes()[o]]; };
   const std::size_t K = of.size(), each = 1 + n + count;
   LinearMatrix fall{MatrixKind::general, static_cast<int>(K), std::vector<int>(K * K)};  // of rates, by products φ s
   for (std::size_t j = 0; j < K; ++j) {
@@ -52,20 +52,20 @@ Program heldSignsOf(const FlowJumps& jumps, const std::vector<char>& held) {
 /// W of which W_k C_kj = W_j C_jk along the strongest ways from the first, where these have the same sign; else 1.
 std::vector<double> symmetrising(const Eigen::MatrixXd& C) {
   const Eigen::Index K = C.rows();
-  std::vector<double> W(at(K), 0.0);
+  std::vector<double> W(K, 0.0);
   for (Eigen::Index found = 0; found < K; ++found) {
     Eigen::Index next = -1;
     double best = 0, weight = 1;
     for (Eigen::Index k = 0; k < K; ++k)
       for (Eigen::Index j = 0; j < K; ++j)
-        if (const double both = C(k, j) * C(j, k); W[at(k)] > 0 && W[at(j)] == 0 && both > best) {
+        if (const double both = C(k, j) * C(j, k); W[k] > 0 && W[j] == 0 && both > best) {
           best = both;
           next = j;
-          weight = W[at(k)] * C(k, j) / C(j, k);
+          weight = W[k] * C(k, j) / C(j, k);
         }
     for (Eigen::Index j = 0; j < K && next < 0; ++j)
-      if (W[at(j)] == 0) next = j;
-    W[at(next)] = weight;
+      if (W[j] == 0) next = j;
+    W[next] = weight;
   }
   return W;
 }
@@ -81,7 +81,7 @@ HeldSigns::HeldSigns(const FlowJumps& jumps, const std::vector<char>& held, std:
 int HeldSigns::worstSymbol(std::size_t jump, double sigma) const {
   const Monomials& monomials = series().monomials();
   const int node = series().outputNode(place_[jump]);
-  std::vector<double> mass(at(monomials.symbols()), 0.0);
+  std::vector<double> mass(monomials.symbols(), 0.0);
   for (int g = 1; g < series().count(node); ++g) {
     const double* c = series().series(node) + g * series().stride();
     double sum = 0;
@@ -97,20 +97,20 @@ bool HeldSigns::decides(double from, double to) const {
   const Eigen::Index K = count_;
   for (int k = 0; k < count_; ++k)
     if (!(over(count_ + k, from, to).lower() > 0)) return false;
-  std::vector<Interval> C(at(K * K), Interval(1.0));
+  std::vector<Interval> C(K * K, Interval(1.0));
   Eigen::MatrixXd middle = Eigen::MatrixXd::Identity(K, K);
   int output = 2 * count_;
   for (Eigen::Index k = 0; k < K; ++k)
     for (Eigen::Index j = 0; j < K; ++j) {
       if (k == j) continue;
-      Interval& entry = C[at(k * K + j)] = over(output++, from, to);
+      Interval& entry = C[k * K + j] = over(output++, from, to);
       if (!isCommon(entry)) return false;
       middle(k, j) = midpoint(entry);
     }
   const std::vector<double> W = symmetrising(middle);
   if (!std::ranges::all_of(W, [](double weight) { return weight > 0 && std::isfinite(weight); })) return false;
   const auto entry = [&](Eigen::Index k, Eigen::Index j) {
-    return Interval(0.5) * (Interval(W[at(k)]) * C[at(k * K + j)] + Interval(W[at(j)]) * C[at(j * K + k)]);
+    return Interval(0.5) * (Interval(W[k]) * C[k * K + j] + Interval(W[j]) * C[j * K + k]);
   };
   Eigen::MatrixXd S(K, K);
   for (Eigen::Index k = 0; k < K; ++k)
@@ -120,12 +120,12 @@ bool HeldSigns::decides(double from, double to) const {
   const Eigen::MatrixXd B = factor.matrixL().solve(Eigen::MatrixXd::Identity(K, K));
   for (Eigen::Index k = 0; k < K; ++k) {
     Interval dominant(0.0);
-    std::vector<Interval> row(at(K), Interval(0.0));  // of B S
+    std::vector<Interval> row(K, Interval(0.0));  // of B S
     for (Eigen::Index j = 0; j < K; ++j)
-      for (Eigen::Index l = 0; l < K; ++l) row[at(j)] += Interval(B(k, l)) * entry(l, j);
+      for (Eigen::Index l = 0; l < K; ++l) row[j] += Interval(B(k, l)) * entry(l, j);
     for (Eigen::Index j = 0; j < K; ++j) {
       Interval product(0.0);
-      for (Eigen::Index l = 0; l < K; ++l) product += row[at(l)] * Interval(B(j, l));
+      for (Eigen::Index l = 0; l < K; ++l) product += row[l] * Interval(B(j, l));
       dominant += k == j ? product : Interval(-magnitude(product));
     }
     if (!(dominant.lower() > 0)) return false;

@@ -28,7 +28,7 @@ void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const
   for (std::size_t k = 0; k < held_.size(); ++k) {
     if (held_[k] == byItsSign) start[k] = Interval(0.0);
     if (held_[k] == atRest) bounds[k].sign = Interval(0.0);
-    if (left_[k] >= 0) bounds[k].sign = Interval(factor_[k]) * own[at(left_[k])].sign;
+    if (left_[k] >= 0) bounds[k].sign = Interval(factor_[k]) * own[left_[k]].sign;
   }
   holding_->setParameters(set.parameters);
   holding_->bound(time, box, start, h, bounds, known);
@@ -104,7 +104,7 @@ double FlowStepper::longestHeld(const JumpRates& rates, double h) const {
 
 /// A tube about x̃ as others know it, without second doubles.
 std::vector<double> FlowStepper::withLow(std::vector<double> tube) const {
-  for (int i = 0; i < n_; ++i) tube[at(i)] = (tube[at(i)] + series_.lowNorm(i)) * bounds::up;
+  for (int i = 0; i < n_; ++i) tube[i] = (tube[i] + series_.lowNorm(i)) * bounds::up;
   return tube;
 }
 

@@ -22,14 +22,14 @@ constexpr double fewParts = 16, mostParts = 64;  // of a step
 
 void FlowInputs::load(const std::vector<Embedded>& parameters) {
   radius_.clear();
-  for (const int parameter : parameters_) radius_.push_back(parameters[at(parameter)].radius);
+  for (const int parameter : parameters_) radius_.push_back(parameters[parameter].radius);
 }
 
 double FlowInputs::push(const PolynomialSeries& series, int i) const {
   double sum = 0;
   for (int k = 0; k < count(); ++k) {
     const int B = node(series, i, k);
-    sum += (series.norm(B) + series.rho0(B) + series.rho1(B)) * radius_[at(k)];
+    sum += (series.norm(B) + series.rho0(B) + series.rho1(B)) * radius_[k];
   }
   return sum * bounds::up;
 }
@@ -84,9 +84,9 @@ void FlowInputs::choosePartsOf(Course& course, const FlowGrowth& growth, double 
   Eigen::VectorXd moving = Eigen::VectorXd::Zero(n_), driving = moving;
   for (int i = 0; i < n_; ++i)
     for (int k = 0; k < count(); ++k) {
-      moving(i) += radius_[at(k)] * speedOf(course, i, k, g.col(k).cwiseAbs()) * course.theta / 4;
+      moving(i) += radius_[k] * speedOf(course, i, k, g.col(k).cwiseAbs()) * course.theta / 4;
       const int b = node(series, i, k);  // its value may pass through zero
-      driving(i) += radius_[at(k)] * (series.norm(b) + series.rho0(b) + series.rho1(b));
+      driving(i) += radius_[k] * (series.norm(b) + series.rho0(b) + series.rho1(b));
     }
   double mostMoved = 0, mostDone = 0, each = 1;
   for (int i = 0; i < n_; ++i) {
@@ -96,7 +96,7 @@ void FlowInputs::choosePartsOf(Course& course, const FlowGrowth& growth, double 
       done += growth.M1(i, l) * driving(l);
     }
     if (done > 0) each = std::max(each, moved / (share_ * done));
-    const double unit = std::ldexp(1.0, -growth.units()[at(i)]);
+    const double unit = std::ldexp(1.0, -growth.units()[i]);
     mostMoved = std::max(mostMoved, unit * moved);
     mostDone = std::max(mostDone, unit * driving(i) * h);
   }
@@ -114,45 +114,44 @@ void FlowInputs::addPart(Course& course, double h, int part, std::vector<double>
   const double length = h / parts_, half = course.theta / (2 * parts_) * bounds::up;
   const Eigen::MatrixXd g = solve(course, course.theta * (part + 0.5) / parts_);
   const Eigen::MatrixXd off = (course.B - course.psi * g).cwiseAbs();
-  std::vector<double> turningNow(at(n_), 0.0), constantNow(at(n_), 0.0);
+  std::vector<double> turningNow(n_, 0.0), constantNow(at(n_), 0.0);
   for (int k = 0; k < count(); ++k) {
     const Eigen::VectorXd size = g.col(k).cwiseAbs();
     for (int i = 0; i < n_; ++i) {
       const int b = node(series, i, k);
       // Horner's scheme 2·order roundings, the product n; the difference, the middle's place, ĝ c below: one each.
       const double rounding = (2 * order_ + n_ + 6) * bounds::unit * (series.norm(b) + course.size.row(i).dot(size));
-      turningNow[at(i)] += radius_[at(k)] * speedOf(course, i, k, size) * half;
-      constantNow[at(i)] +=
-          radius_[at(k)] * (off(i, k) + rounding + series.variation(b) + course.variation.row(i).dot(size) +
-                            series.meanRho(b).e0 + series.meanRho(b).e1);
+      turningNow[i] += radius_[k] * speedOf(course, i, k, size) * half;
+      constantNow[i] += radius_[k] * (off(i, k) + rounding + series.variation(b) + course.variation.row(i).dot(size) +
+                                      series.meanRho(b).e0 + series.meanRho(b).e1);
     }
-    const double reach = radius_[at(k)] * length * bounds::up;  // ≥ |∫u| over the part
+    const double reach = radius_[k] * length * bounds::up;  // ≥ |∫u| over the part
     for (int i = 0; i < n_; ++i) {
       generators_.push_back(g(i, k) * reach);
-      total_[at(i)] += std::fabs(generators_.back()) * bounds::up;
+      total_[i] += std::fabs(generators_.back()) * bounds::up;
     }
   }
   for (int i = 0; i < n_; ++i) {
-    turning[at(i)] = std::max(turning[at(i)], turningNow[at(i)]);
-    constant[at(i)] = std::max(constant[at(i)], constantNow[at(i)]);
+    turning[i] = std::max(turning[i], turningNow[i]);
+    constant[i] = std::max(constant[i], constantNow[i]);
   }
 }
 
 void FlowInputs::resolve(const PolynomialSeries& series, const FlowGrowth& growth, double theta, double h) {
   generators_.clear();
-  total_.assign(at(n_), 0.0);
-  rest_.assign(at(n_), 0.0);
+  total_.assign(n_, 0.0);
+  rest_.assign(n_, 0.0);
   haste_ = 0;
   if (empty()) return;
   Course course = courseOf(series, theta);
   choosePartsOf(course, growth, h);
-  std::vector<double> turning(at(n_), 0.0), constant(at(n_), 0.0);
+  std::vector<double> turning(n_, 0.0), constant(at(n_), 0.0);
   for (int part = 0; part < parts_; ++part) addPart(course, h, part, turning, constant);
   // y' = Ay + d: M1 d for a constant d; e^{Ah} ∫d for one that falls to zero in the middle of every part.
   for (int i = 0; i < n_; ++i) {
     double sum = 0;
-    for (int l = 0; l < n_; ++l) sum += growth.M1(i, l) * constant[at(l)] + growth.M0(i, l) * 0.5 * h * turning[at(l)];
-    rest_[at(i)] = sum * bounds::up + bounds::tiny;
+    for (int l = 0; l < n_; ++l) sum += growth.M1(i, l) * constant[l] + growth.M0(i, l) * 0.5 * h * turning[l];
+    rest_[i] = sum * bounds::up + bounds::tiny;
   }
 }
 

@@ -36,8 +36,8 @@ class FlowInputs {
   const std::vector<double>& generators() const { return generators_; }
   /// How many of these numbers belong to parts that begin before `share` of the step has passed.
   std::size_t begunBefore(double share) const;
-  double total(int j) const { return total_[detail::at(j)]; }  ///< Σ |generators|, rounded up
-  double rest(int i) const { return rest_[detail::at(i)]; }
+  double total(int j) const { return total_[j]; }  ///< Σ |generators|, rounded up
+  double rest(int i) const { return rest_[i]; }
 
  private:
   int node(const PolynomialSeries& series, int i, int k) const {

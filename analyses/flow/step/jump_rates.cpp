@@ -25,13 +25,12 @@ Program ratesOf(const FlowJumps& jumps) {
   for (int jump = 0; jump < count; ++jump)
     for (const double sign : {1.0, -1.0}) {
       std::vector<int> values = parameters;
-      values[detail::at(k + jump)] = recorder.constant(sign);
+      values[k + jump] = recorder.constant(sign);
       const std::vector<int> here = recorder.append(given, values);
-      outputs.push_back(here[detail::at(given.outputNodes()[detail::at(n + count + jump)])]);
+      outputs.push_back(here[given.outputNodes()[n + count + jump]]);
     }
   const std::vector<int> here = recorder.append(given, parameters);
-  for (int jump = 0; jump < count; ++jump)
-    outputs.push_back(here[detail::at(given.outputNodes()[detail::at(n + jump)])]);
+  for (int jump = 0; jump < count; ++jump) outputs.push_back(here[given.outputNodes()[n + jump]]);
   return recorder.finish(outputs);
 }
 
@@ -47,7 +46,7 @@ Program heldPushOf(const FlowJumps& jumps, std::size_t jump, double before) {
     for (int i = 0; i < given.parameters(); ++i) values.push_back(recorder.parameter(i));
     values[detail::at(given.parameters() - count) + jump] = recorder.constant(sign);
     const std::vector<int> here = recorder.append(given, values);
-    for (const int output : given.outputNodes()) outputs.push_back(here[detail::at(output)]);
+    for (const int output : given.outputNodes()) outputs.push_back(here[output]);
     return outputs;
   };
   const std::vector<int> own = outputsWith(before), other = outputsWith(-before);
@@ -70,7 +69,7 @@ Program pressuresOf(const FlowJumps& jumps) {
     values[detail::at(signs) + rest.position] = recorder.constant(rest.ofPosition(1));
     values[detail::at(signs) + rest.speed] = recorder.constant(rest.ofSpeed(-1));
     const std::vector<int> here = recorder.append(given, values);
-    outputs.push_back(recorder.neg(here[detail::at(given.outputNodes()[detail::at(rest.states.speed)])]));
+    outputs.push_back(recorder.neg(here[given.outputNodes()[rest.states.speed]]));
   }
   return recorder.finish(outputs);
 }

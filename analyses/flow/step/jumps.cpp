@@ -27,9 +27,9 @@ FlowJumps::FlowJumps(const Program& differentiated, const std::vector<int>& vary
   isAffine = isAffineInSigns(f);
   given = withSignsGiven(f);
   for (const int jump : jumps) {
-    forms.push_back(linearFormOf(f, f.nodes()[at(jump)].a));
+    forms.push_back(linearFormOf(f, f.nodes()[jump].a));
     for (const int parameter : varying)
-      if (forms.back() && forms.back()->parameters[at(parameter)] != 0) forms.back().reset();
+      if (forms.back() && forms.back()->parameters[parameter] != 0) forms.back().reset();
   }
   rests = restingJumps(pairs, forms);
 }
@@ -68,12 +68,12 @@ Program FlowJumps::withoutSignsAtRest(const Program& g, const std::vector<char>&
   Recorder recorder(g.states(), g.parameters());
   std::vector<int> instead(g.nodes().size(), -1), outputs;
   for (const int jump : jumpsOf(g)) {
-    const std::optional<LinearForm> own = linearFormOf(g, g.nodes()[at(jump)].a);
+    const std::optional<LinearForm> own = linearFormOf(g, g.nodes()[jump].a);
     for (std::size_t k = 0; k < held.size() && own; ++k)
-      if (held[k] == atRest && ratioAsWritten(*own, *forms[k]) != 0) instead[at(jump)] = recorder.constant(0.0);
+      if (held[k] == atRest && ratioAsWritten(*own, *forms[k]) != 0) instead[jump] = recorder.constant(0.0);
   }
   const std::vector<int> here = recorder.append(g, {}, instead);
-  for (const int output : g.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : g.outputNodes()) outputs.push_back(here[output]);
   return recorder.finish(outputs);
 }
 
@@ -93,21 +93,21 @@ FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
   for (const RestingJumps& rest : rests)
     if (held[rest.speed] == atRest)
       for (const int state : {rest.states.position, rest.states.speed}) {
-        stands[at(state)] = 1;
-        rates[at(state)] = recorder.constant(0.0);  // exactly
+        stands[state] = 1;
+        rates[state] = recorder.constant(0.0);  // exactly
       }
   Held result{recorder.finish(rates), std::vector<int>(count, -1), std::vector<double>(count, 1.0)};
   std::vector<int> nodes(count, -1);  // of the signs left; where surfaces meet, two that agree elsewhere are still two
   for (std::size_t k = 0; k < count; ++k) {
     if (held[k] != 0) continue;
     int node = outputs[n + count + k];
-    if (all.nodes()[at(node)].op == Op::neg) {
-      node = all.nodes()[at(node)].a;
+    if (all.nodes()[node].op == Op::neg) {
+      node = all.nodes()[node].a;
       result.factor[k] = -1;
     }
-    const Node& sign = all.nodes()[at(node)];
+    const Node& sign = all.nodes()[node];
     const bool isFixed =
-        sign.op == Op::constant && magnitude(all.constants()[at(sign.a)]) == 1 && isThin(all.constants()[at(sign.a)]);
+        sign.op == Op::constant && magnitude(all.constants()[sign.a]) == 1 && isThin(all.constants()[sign.a]);
     if (isFixed) continue;
     if (sign.op != Op::sign || std::ranges::find(nodes, node) != nodes.end())
       throw std::logic_error("signs become one or zero where others are held");
@@ -115,16 +115,16 @@ FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
   }
   std::vector<char> isUsed(all.nodes().size(), 0);
   for (std::size_t i = 0; i < n; ++i)
-    if (stands[i] == 0) isUsed[at(outputs[i])] = 1;
+    if (stands[i] == 0) isUsed[outputs[i]] = 1;
   for (std::size_t i = isUsed.size(); i-- > 0;)
     if (isUsed[i] != 0)
-      detail::forEachOperand(all.table(), static_cast<int>(i), [&](int operand) { isUsed[at(operand)] = 1; });
+      detail::forEachOperand(all.table(), static_cast<int>(i), [&](int operand) { isUsed[operand] = 1; });
   int next = 0;
   for (const int jump : jumpsOf(all)) {
     const auto place = std::ranges::find(nodes, jump);
-    if (isUsed[at(jump)] == 0) continue;
+    if (isUsed[jump] == 0) continue;
     if (place == nodes.end()) throw std::logic_error("a sign of which it is not known what it was");
-    result.left[static_cast<std::size_t>(place - nodes.begin())] = next++;
+    result.left[place - nodes.begin()] = next++;
   }
   return result;
 }
@@ -133,7 +133,7 @@ void FlowJumps::Held::matchTo(const FlowJumps& jumps) {
   const std::vector<int> own = jumpsOf(f);
   for (std::size_t k = 0; k < left.size(); ++k) {
     if (left[k] < 0) continue;
-    const auto form = linearFormOf(f, f.nodes()[at(own[at(left[k])])].a);
+    const auto form = linearFormOf(f, f.nodes()[own[left[k]]].a);
     left[k] = -1;
     for (std::size_t j = 0; j < jumps.forms.size() && form && left[k] < 0 && jumps.count() == own.size(); ++j) {
       const double sign = jumps.forms[j] ? ratioAsWritten(*jumps.forms[j], *form) : 0;
@@ -218,13 +218,13 @@ Interval JumpBounder::pressure(const RestingJumps& rest, const Interval& time, c
   all[parameters_.size() + rest.speed] = Interval(rest.ofSpeed(-1));
   given_.setParameters(all);
   given_(time, box, results_);
-  return -results_[at(rest.states.speed)];
+  return -results_[rest.states.speed];
 }
 
 void JumpBounder::narrow(const LinearForm& form, const Interval& argument, Box& box) const {
   const Interval others = rangeWithout(at(form.pivot), form, box, parameters_);
-  Interval& pivot = box[at(form.pivot)];
-  const Interval both = intersection(pivot, (argument - others) / Interval(form.states[at(form.pivot)]));
+  Interval& pivot = box[form.pivot];
+  const Interval both = intersection(pivot, (argument - others) / Interval(form.states[form.pivot]));
   if (!isEmpty(both)) pivot = both;
 }
 

@@ -15,18 +15,17 @@ namespace {
 std::vector<int> linearKinks(const Program& differentiated, const std::vector<int>& varying,
                              std::vector<LinearForm>& forms) {
   std::vector<char> isNeeded(differentiated.nodes().size(), 0);
-  for (int i = 0; i < differentiated.states(); ++i) isNeeded[at(differentiated.outputNodes()[at(i)])] = 1;
+  for (int i = 0; i < differentiated.states(); ++i) isNeeded[differentiated.outputNodes()[i]] = 1;
   for (std::size_t i = isNeeded.size(); i-- > 0;)
     if (isNeeded[i] != 0)
-      detail::forEachOperand(differentiated.table(), static_cast<int>(i),
-                             [&](int operand) { isNeeded[at(operand)] = 1; });
+      detail::forEachOperand(differentiated.table(), static_cast<int>(i), [&](int operand) { isNeeded[operand] = 1; });
   std::vector<int> nodes;
   for (std::size_t i = 0; i < isNeeded.size(); ++i) {
     const Node& node = differentiated.nodes()[i];
     if (isNeeded[i] == 0 || node.op != Op::abs) continue;
     const auto form = linearFormOf(differentiated, node.a);
     bool isKnown = form.has_value();
-    for (const int input : varying) isKnown = isKnown && form->parameters[at(input)] == 0;
+    for (const int input : varying) isKnown = isKnown && form->parameters[input] == 0;
     if (!isKnown) continue;
     nodes.push_back(static_cast<int>(i));
     forms.push_back(*form);
@@ -38,9 +37,9 @@ Program withKinksGiven(const Program& differentiated, const std::vector<int>& no
   const int n = differentiated.states(), k = differentiated.parameters();
   Recorder recorder(n, k + static_cast<int>(nodes.size()));
   std::vector<int> instead(differentiated.nodes().size(), -1), outputs;
-  for (std::size_t j = 0; j < nodes.size(); ++j) instead[at(nodes[j])] = recorder.parameter(k + static_cast<int>(j));
+  for (std::size_t j = 0; j < nodes.size(); ++j) instead[nodes[j]] = recorder.parameter(k + static_cast<int>(j));
   const std::vector<int> here = recorder.append(differentiated, {}, instead);
-  for (int i = 0; i < n; ++i) outputs.push_back(here[at(differentiated.outputNodes()[at(i)])]);
+  for (int i = 0; i < n; ++i) outputs.push_back(here[differentiated.outputNodes()[i]]);
   return recorder.finish(outputs);
 }
 

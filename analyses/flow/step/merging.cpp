@@ -48,9 +48,9 @@ Directions directionsOf(const Matrices& generators, const Monomials& m, const Ve
     for (std::size_t g = 0; g < powers; ++g) {  // the product of powers a and b is g; c_g is still zero
       const auto pairs = std::span(m.pairs()).subspan(at(m.first()[g]), at(m.first()[g + 1] - m.first()[g]));
       Eigen::RowVectorXd row = y[g].row(k);
-      for (const auto& [a, b] : pairs) row -= across[at(a)](k, k) * c[at(b)].row(k);
+      for (const auto& [a, b] : pairs) row -= across[a](k, k) * c[b].row(k);
       c[g].row(k) = row / across[0](k, k);
-      for (const auto& [a, b] : pairs) y[g].bottomRows(below) -= across[at(a)].col(k).tail(below) * c[at(b)].row(k);
+      for (const auto& [a, b] : pairs) y[g].bottomRows(below) -= across[a].col(k).tail(below) * c[b].row(k);
     }
   }
   Directions found;
@@ -64,17 +64,17 @@ Directions directionsOf(const Matrices& generators, const Monomials& m, const Ve
     Matrix rest = generators[g], sizes = rest.cwiseAbs();
     const int begin = m.first()[g], end = m.first()[g + 1], grade = m.grade(static_cast<int>(g));
     for (int pair = begin; pair < end; ++pair) {
-      const auto [a, b] = m.pairs()[at(pair)];
-      rest -= found.p[at(a)] * c[at(b)];
-      sizes += found.p[at(a)].cwiseAbs() * c[at(b)].cwiseAbs();
+      const auto [a, b] = m.pairs()[pair];
+      rest -= found.p[a] * c[b];
+      sizes += found.p[a].cwiseAbs() * c[b].cwiseAbs();
     }
     found.rest += rest.cwiseAbs() + (static_cast<double>((end - begin) * (n + 1)) + 1) * bounds::unit * sizes;
     found.most += c[g].cwiseAbs();
-    size[at(grade)] += c[g].cwiseAbs();
-    for (int q = 0; q <= grade; ++q) high[at(q)] += found.p[g].cwiseAbs();
+    size[grade] += c[g].cwiseAbs();
+    for (int q = 0; q <= grade; ++q) high[q] += found.p[g].cwiseAbs();
     Work::count(Work::matrixTerm, static_cast<double>(3 * (end - begin) * n * rest.size()));
   }
-  for (int q = 1; q <= degree; ++q) found.rest += high[at(degree - q + 1)] * size[at(q)];
+  for (int q = 1; q <= degree; ++q) found.rest += high[degree - q + 1] * size[q];
   return found;
 }
 
@@ -134,13 +134,12 @@ void mergeGenerators(FlowSet& set, const Monomials& monomials, std::size_t most)
   }
   if (!extent.allFinite()) return;  // the next step fails
   Vector unit = Vector::Ones(n);
-  for (Eigen::Index i = 0; i < n && !set.units.empty(); ++i)
-    unit(i) = std::ldexp(1.0, set.units[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < n && !set.units.empty(); ++i) unit(i) = std::ldexp(1.0, set.units[i]);
 
   const std::vector<char> isMerged = least(lossesOf(extent, unit), count - most + at(n));
   Vector box = Vector::Zero(n);
   for (Eigen::Index j = 0; j < columns; ++j)
-    if (isMerged[at(j)] != 0) box += extent.col(j);
+    if (isMerged[j] != 0) box += extent.col(j);
 
   // Of a motion that damps, what is little is what is old.
   const auto old = std::count(isMerged.begin(), isMerged.begin() + static_cast<std::ptrdiff_t>(count / 2), 1);
@@ -159,7 +158,7 @@ void mergeGenerators(FlowSet& set, const Monomials& monomials, std::size_t most)
   const std::vector<char> isAlong = least(std::move(losses), count - most + 2 * at(n));
   Vector along = Vector::Zero(n), rest = along, apart = along;
   for (Eigen::Index j = 0; j < columns; ++j) {
-    if (isAlong[at(j)] == 0) {
+    if (isAlong[j] == 0) {
       apart += extent.col(j);
       continue;
     }

@@ -149,7 +149,7 @@ std::vector<double> FlowStepper::statesSince(const StepTurn& turn) const {
 /// GΨ̃ at m(ξ), of the columns that there is something of.
 std::vector<BoundedPolynomial> FlowStepper::guardOfFrame(const StepTurn& turn) const {
   const std::size_t n = at(n_);
-  std::vector<BoundedPolynomial> result(n, {std::vector<double>(at(series_.count()), 0.0)});
+  std::vector<BoundedPolynomial> result(n, {std::vector<double>(series_.count(), 0.0)});
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t l = 0; l < n && total_[j] > 0; ++l) {
       if (turn.ofGuard[l] == 0) continue;
@@ -277,7 +277,7 @@ void FlowStepper::advanceTo(const BoundedPolynomial& moment, FlowSet& set) {
   carryGenerators(set);
   BoundedPolynomial elapsed = moment;
   elapsed *= h0_;
-  set.ahead.c.resize(at(series_.count()), 0.0);
+  set.ahead.c.resize(series_.count(), 0.0);
   set.ahead += elapsed;
   // t moves on to about when the first of them are there: by whole units of time.
   const double first = (Interval(set.ahead.c[0]) - Interval(set.ahead.variation()) - Interval(set.ahead.error)).lower();
@@ -296,8 +296,8 @@ bool FlowStepper::findMeeting(const std::vector<double>& weights) {
   std::vector<double> rates, beside;  // of each state; [state][symbol]
   double square = 0, before = 0, after = 0, spread = 0;
   for (int i = 0; i < n_; ++i) {
-    if (weights[at(i)] == 0) continue;
-    const double size = std::max(scale_[i], bounds::tiny) / weights[at(i)];
+    if (weights[i] == 0) continue;
+    const double size = std::max(scale_[i], bounds::tiny) / weights[i];
     const auto at = [&](const double* c, bool rate) {
       double value = 0, slope = 0;
       for (int order = m_; order >= 0; --order) {
@@ -314,7 +314,7 @@ bool FlowStepper::findMeeting(const std::vector<double>& weights) {
     }
   }
   if (!(square > 0) || !std::isfinite(square)) return false;
-  meeting_ = {std::vector<double>(detail::at(monomials().count()), 0.0)};
+  meeting_ = {std::vector<double>(monomials().count(), 0.0)};
   std::vector<double> moments;
   for (int l = 0; l < symbols; ++l) {
     double sum = 0;
@@ -329,7 +329,7 @@ bool FlowStepper::findMeeting(const std::vector<double>& weights) {
     for (int l = 0; l < symbols; ++l) {
       const double of = beside[i * detail::at(symbols) + detail::at(l)];
       own += std::fabs(of);
-      left += std::fabs(of + share * moments[detail::at(l)] * rates[i]);
+      left += std::fabs(of + share * moments[l] * rates[i]);
     }
     before += own * own;
     after += left * left;
@@ -338,7 +338,7 @@ bool FlowStepper::findMeeting(const std::vector<double>& weights) {
   // Within the step: from (1 - 1/64 - 0.9) θ to (1 - 1/64) θ.
   meeting_.c[0] = theta_ * (1 - 0x1p-6) - share * spread;
   for (int l = 0; l < symbols; ++l)
-    if (const int g = monomials().linear(l); g >= 0) meeting_.c[detail::at(g)] = share * moments[detail::at(l)];
+    if (const int g = monomials().linear(l); g >= 0) meeting_.c[g] = share * moments[l];
   return true;
 }
 

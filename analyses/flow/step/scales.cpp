@@ -35,7 +35,7 @@ void FlowScales::finish() {
     for (Eigen::Index j = 0; j < n; ++j)
       if (goal(j) > 0) share = std::min(share, goal(j) / turned.row(j).cwiseAbs().dot(alone));
     for (Eigen::Index i = 0; i < n; ++i) {
-      double& size = steps_[k - 1].sizes[static_cast<std::size_t>(i)];
+      double& size = steps_[k - 1].sizes[i];
       if (share > 0 && alone(i) < bounds::largest) size = std::max(size, share * alone(i));
     }
   }

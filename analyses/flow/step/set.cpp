@@ -107,10 +107,10 @@ namespace {
 /// In other monomials; what does not fit is an error.
 void changeMonomials(BoundedPolynomial& polynomial, const Monomials& from, const Monomials& to) {
   if (polynomial.c.empty()) return;
-  BoundedPolynomial result{std::vector<double>(at(to.count()), 0.0), polynomial.error};
+  BoundedPolynomial result{std::vector<double>(to.count(), 0.0), polynomial.error};
   for (std::size_t g = 0; g < polynomial.c.size(); ++g)
     if (const int number = to.find(from, static_cast<int>(g)); number >= 0)
-      result.c[at(number)] = polynomial.c[g];
+      result.c[number] = polynomial.c[g];
     else
       result.error += std::fabs(polynomial.c[g]);
   result.error *= bounds::up;
@@ -208,12 +208,12 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
   const int n = static_cast<int>(set.R.size()), N = from.count(), newN = to.count();
   const std::optional<PrincipalAxes> principal = principalAxesOf(set);
   if (!principal) return false;
-  std::vector<double> p(at(n * newN), 0.0);
+  std::vector<double> p(n * newN, 0.0);
   for (int i = 0; i < n; ++i) {
     double dropped = 0;
     for (int g = 0; g < N; ++g)
       if (const int number = to.find(from, g); number >= 0)
-        p[at(i * newN + number)] = set.p[i * N + g];
+        p[i * newN + number] = set.p[i * N + g];
       else
         dropped += std::fabs(set.p[i * N + g]);
     if (!set.low.empty()) dropped += std::fabs(set.low[i]);
@@ -224,7 +224,7 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
     double rounded = 0;
     for (int j = 0; j < n; ++j) {
       const double coefficient = principal->axes(i, j) * principal->half(j) * principal->unit(i);  // one rounding
-      p[at(i * newN + to.linear(from.symbols() + j))] = coefficient;
+      p[i * newN + to.linear(from.symbols() + j)] = coefficient;
       rounded += bounds::unit * std::fabs(coefficient);
     }
     set.W[i] = (set.W[i] + rounded) * bounds::up + bounds::tiny;
@@ -235,9 +235,9 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
       Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(set.C.data(), n, n);
   reframe(set, C, set.inputs);
   for (std::vector<double>& columns : set.inputsOfXi) reframe(set, C, columns);
-  set.C.assign(at(n * n), 0.0);
+  set.C.assign(n * n, 0.0);
   for (int i = 0; i < n; ++i) set.C[i * n + i] = 1;
-  set.R.assign(at(n), 0.0);
+  set.R.assign(n, 0.0);
   set.generators.clear();
   set.powers = at(to.countUpTo(frameDegree));
   return true;

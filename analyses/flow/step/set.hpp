@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "analyses/flow/series/bounded_polynomial.hpp"
-#include "analyses/flow/series/by_number.hpp"
 #include "analyses/flow/series/embedded.hpp"
 #include "analyses/flow/series/monomials.hpp"
 #include "analyses/flow/series/polynomial_series.hpp"
@@ -18,19 +17,19 @@ namespace gamut {
 /// do.
 struct FlowSet {
   double t = 0;
-  ByNumber<double> p;    // [state][monomial]
-  ByNumber<double> low;  // second doubles of p, of sets without symbols; empty: all are 0
-  ByNumber<double> C;    // [row][column]
-  ByNumber<double> R, W;
+  std::vector<double> p;    // [state][monomial]
+  std::vector<double> low;  // second doubles of p, of sets without symbols; empty: all are 0
+  std::vector<double> C;    // [row][column]
+  std::vector<double> R, W;
   std::size_t powers = 1;                       // monomials of generators, the first ones
-  ByNumber<double> generators;                  // [monomial][generator][row], oldest first
+  std::vector<double> generators;               // [monomial][generator][row], oldest first
   std::vector<double> inputs;                   // likewise, of what varies in time: [part of a step][input][row]
   std::vector<std::vector<double>> inputsOfXi;  // what of them is linear in each symbol, likewise; none: nothing is
   std::vector<Embedded> parameters;
-  ByNumber<double> centre, half;    // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
-  ByNumber<int> units;              // FlowGrowth's, of the last step
-  ByNumber<double> first, largest;  // size of each state over the first step, and the greatest so far
-  std::vector<Interval> arguments;  // of jumps, what is known of them besides (FlowJumps); none: nothing is
+  std::vector<double> centre, half;    // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
+  std::vector<int> units;              // FlowGrowth's, of the last step
+  std::vector<double> first, largest;  // size of each state over the first step, and the greatest so far
+  std::vector<Interval> arguments;     // of jumps, what is known of them besides (FlowJumps); none: nothing is
   // Solutions are in the set at times of their own, each at t + ahead(ξ), s, no sooner than t; none: at t.
   BoundedPolynomial ahead = {};
   double unsettledUntil = 0;  // s: until then solutions may be `unsettled` from the set (Settling)

@@ -124,7 +124,7 @@ void restOthers(FlowSet& set, const Monomials& monomials, const LinearForm& spee
 void makeZero(FlowSet& set, const Monomials& monomials, const LinearForm& form, std::size_t state) {
   const double by = form.states[state];
   const Interval constant = -form.constant / Interval(by);
-  LooseSum sum{std::vector<double>(at(monomials.count()), 0.0), radius(constant), std::fabs(midpoint(constant))};
+  LooseSum sum{std::vector<double>(monomials.count(), 0.0), radius(constant), std::fabs(midpoint(constant))};
   sum.p[0] = midpoint(constant);
   const int terms = 2 + 2 * sum.addParameters(form, -by, set.parameters, monomials);
   const bool isExact = terms == 2 && sum.loose == 0;  // a number
@@ -237,7 +237,7 @@ class Settling::Search {
       pressing[other.position] = Interval(other.ofPosition(1));
       pressing[other.speed] = Interval(other.ofSpeed(-1));
       pressing[rest_.position] = pressing[rest_.speed] = Interval(-1.0, 1.0);
-      return settling_.rates(time_, box_, pressing)[at(other.states.speed)].upper() < 0;
+      return settling_.rates(time_, box_, pressing)[other.states.speed].upper() < 0;
     });
   }
 

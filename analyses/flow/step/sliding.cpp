@@ -24,12 +24,12 @@ constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would w
 /// parameters have, might underflow.
 std::optional<std::vector<double>> ratiosOf(const LinearForm& form) {
   constexpr double least = 0x1p-500;
-  const double by = form.states[at(form.pivot)];
+  const double by = form.states[form.pivot];
   const auto isSafe = [&](double coefficient) { return coefficient == 0 || std::fabs(coefficient / by) > least; };
   if (!std::ranges::all_of(form.states, isSafe) || !std::ranges::all_of(form.parameters, isSafe)) return std::nullopt;
   std::vector<double> ratios;
   for (const double coefficient : form.states) ratios.push_back(-coefficient / by);
-  ratios[at(form.pivot)] = 0;
+  ratios[form.pivot] = 0;
   return ratios;
 }
 
@@ -163,7 +163,7 @@ int LooseSum::addParameters(const LinearForm& form, double by, const std::vector
     if (part == 0) continue;
     ++terms;
     p[0] += part * e.centre;
-    if (e.symbol >= 0) p[at(monomials.linear(e.symbol))] += part * e.half;
+    if (e.symbol >= 0) p[monomials.linear(e.symbol)] += part * e.half;
     size += std::fabs(part) * (std::fabs(e.centre) + std::fabs(e.half));
     loose += std::fabs(part) * e.coarseRadius();
   }
@@ -210,15 +210,15 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) 
   const int N = series_.count();
   int symbol = -1;
   double longest = 0;
-  std::vector<char> isPivot(at(n_), 0);
-  std::vector<double> unknown(at(n_), 0.0);  // of a state, by those that come
+  std::vector<char> isPivot(n_, 0);
+  std::vector<double> unknown(n_, 0.0);  // of a state, by those that come
   for (std::size_t k = 0; k < ownBounds_.size(); ++k) {
     const JumpBound& bound = ownBounds_[k];
     if (!bound.isKnown()) continue;
     const LinearForm& form = *own_->jumps().forms[k];
-    isPivot[at(form.pivot)] = 1;
+    isPivot[form.pivot] = 1;
     if (!bound.maySlide) continue;
-    std::vector<double> mass(at(monomials().symbols()), 0.0);
+    std::vector<double> mass(monomials().symbols(), 0.0);
     double sum = 0, rate = 0;
     for (int g = 0; g < N; ++g) {
       double value = 0;
@@ -238,8 +238,8 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) 
         isFromBoth  ? std::max(bound.start.upper() / -bound.up.upper(), -bound.start.lower() / bound.down.lower())
         : rate != 0 ? 2 * sum / std::fabs(rate)
                     : 0;
-    const double apart = bound.holds ? 0.5 * time * sum / std::fabs(form.states[at(form.pivot)]) : 0.0;
-    for (int i = 0; i < n_; ++i) unknown[at(i)] += series_.jacobianBound(i, form.pivot) * apart;
+    const double apart = bound.holds ? 0.5 * time * sum / std::fabs(form.states[form.pivot]) : 0.0;
+    for (int i = 0; i < n_; ++i) unknown[i] += series_.jacobianBound(i, form.pivot) * apart;
     if (!(time > longest)) continue;
     longest = time;
     symbol = worst;
@@ -249,11 +249,11 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) 
   const double part = set.half[symbol], steps = longest / h_;
   bool isTooWide = lost * longest * growth_.growth() / h_ > shares.kink / part;
   for (int i = 0; i < n_; ++i) {
-    if (isPivot[at(i)] != 0) continue;
+    if (isPivot[i] != 0) continue;
     double added = 0, width = 0;
     for (int j = 0; j < n_; ++j) added += steps * growth_.M1(i, j) * delta_[j].e0;
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[i * N + g]);
-    const double lacking = unknown[at(i)] + 0.5 * longest * delta_[i].e0;  // the latter of all signs together
+    const double lacking = unknown[i] + 0.5 * longest * delta_[i].e0;  // the latter of all signs together
     const double least = 1e-9 * scale_[i], later = width + lacking;
     isTooWide = isTooWide || (added > shares.kink / part * width && width > least);
     if (later > least) course_.slideLoss = std::max(course_.slideLoss, lost * lacking / later * part);
@@ -670,51 +670,51 @@ void FlowStepper::boundArrivals(const FlowSet& set) {
   if (turn_) bent_ = turn_->jolt;
   if (!course_.isSliding || !own_ || !crossings_.empty() || !inputs_.empty() || monomials().symbols() == 0) return;
   std::vector<Arrival> arrivals;
-  std::vector<char> decided(at(n_), 0);
+  std::vector<char> decided(n_, 0);
   for (std::size_t k = 0; k < ownBounds_.size(); ++k) {
     const JumpBound& bound = ownBounds_[k];
     if (!bound.isKnown() || !bound.maySlide || !bound.holds || !own_->jumps().forms[k]) continue;
     const LinearForm& form = *own_->jumps().forms[k];
     const bool isApart = std::ranges::none_of(arrivals, [&](const Arrival& other) {  // one does not hold the other's
-      return form.states[at(other.form->pivot)] != 0 || other.form->states[at(form.pivot)] != 0;
+      return form.states[other.form->pivot] != 0 || other.form->states[form.pivot] != 0;
     });
     const std::optional<Arrival> arrival = isApart ? arrivalOf(set, form, bound) : std::nullopt;
     if (!arrival) continue;
     arrivals.push_back(*arrival);
-    decided[at(form.pivot)] = 1;
+    decided[form.pivot] = 1;
   }
   if (arrivals.empty()) return;
   arrives_ = decided;
-  std::vector<double> begin(at(n_), 0.0), end = begin;
+  std::vector<double> begin(n_, 0.0), end = begin;
   for (int i = 0; i < n_; ++i)
-    for (int j = 0; j < n_; ++j) following_.A(i, j) = decided[at(i)] + decided[at(j)] > 0 ? 0.0 : growth_.A(i, j);
+    for (int j = 0; j < n_; ++j) following_.A(i, j) = decided[i] + decided[j] > 0 ? 0.0 : growth_.A(i, j);
   for (const Arrival& arrival : arrivals) {
     const LinearForm& form = *arrival.form;
     for (int i = 0; i < n_; ++i) {
-      if (decided[at(i)] != 0) continue;
-      const double by = growth_.A(i, form.pivot) / std::fabs(form.states[at(form.pivot)]) * bounds::up;
+      if (decided[i] != 0) continue;
+      const double by = growth_.A(i, form.pivot) / std::fabs(form.states[form.pivot]) * bounds::up;
       for (int j = 0; j < n_; ++j)
-        if (decided[at(j)] == 0) following_.A(i, j) += by * std::fabs(form.states[at(j)]) * bounds::up;
-      begin[at(i)] += by * arrival.begin * bounds::up;
-      end[at(i)] += by * arrival.end * bounds::up;
+        if (decided[j] == 0) following_.A(i, j) += by * std::fabs(form.states[j]) * bounds::up;
+      begin[i] += by * arrival.begin * bounds::up;
+      end[i] += by * arrival.end * bounds::up;
     }
   }
   following_.setUnits(growth_.units());
   if (!following_.compute(h_)) return;
-  bent_.assign(at(n_), 0.0);
+  bent_.assign(n_, 0.0);
   for (int i = 0; i < n_; ++i) {
-    if (decided[at(i)] != 0) continue;
-    double sum = 0.5 * h_ * (begin[at(i)] + end[at(i)]);
+    if (decided[i] != 0) continue;
+    double sum = 0.5 * h_ * (begin[i] + end[i]);
     for (int j = 0; j < n_; ++j) {
-      if (decided[at(j)] != 0) continue;
+      if (decided[j] != 0) continue;
       const double carried = std::max(0.0, following_.M1(i, j) - (i == j ? h_ * bounds::down : 0.0));
       sum += following_.M1(i, j) * delta_[j].e0 + following_.M2(i, j) * delta_[j].e1 + following_.M0(i, j) * set.W[j] +
-             carried * std::max(begin[at(j)], end[at(j)]);
+             carried * std::max(begin[j], end[j]);
     }
     sum = sum * bounds::up + bounds::tiny;
     if (!(sum < e1_[i])) continue;
     e1_[i] = sum;
-    bent_[i] = std::max(0.0, begin[at(i)] - end[at(i)]) * h_ / 8 * bounds::up;
+    bent_[i] = std::max(0.0, begin[i] - end[i]) * h_ / 8 * bounds::up;
   }
 }
 
@@ -764,8 +764,8 @@ std::vector<Interval> FlowStepper::argumentsBehind(bool onceTurned) const {
   for (std::size_t k = 0; k < held_.size(); ++k) {
     result.push_back(held_[k] != 0 ? behind(heldBounds_[k]) : Interval::entire());
     if (left_[k] >= 0 && !ownBounds_.empty() && !onceTurned)
-      result.back() = Interval(factor_[k]) * behind(ownBounds_[at(left_[k])]);
-    if (left_[k] >= 0 && !besides.empty()) result.back() = Interval(factor_[k]) * besides[at(left_[k])];
+      result.back() = Interval(factor_[k]) * behind(ownBounds_[left_[k]]);
+    if (left_[k] >= 0 && !besides.empty()) result.back() = Interval(factor_[k]) * besides[left_[k]];
     if (turn_ && turn_->jump == k && !turn_->passesJump()) result.back() = argument;
     if (turn_ && turn_->lifts != nullptr && turn_->lifts->position == k)
       result.back() = sideOf(turn_->lifts->positionRises);

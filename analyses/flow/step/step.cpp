@@ -80,7 +80,7 @@ void FlowStepper::load(const FlowSet& set) {
   for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[i * N]);
   for (std::size_t i = 0; i < set.low.size(); ++i) series_.setStateLow(static_cast<int>(i), set.low[i]);
   for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
-  std::vector<double> entry(at(series_.frameCount()), 0.0);  // constant at the start
+  std::vector<double> entry(series_.frameCount(), 0.0);  // constant at the start
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {
       entry[0] = set.C[i * n_ + j];
@@ -102,9 +102,9 @@ double FlowStepper::suggestion(double theta, double share) const {
     for (int g = 0; g < series_.count(); ++g) sum += std::fabs(series_.series(i)[g * series_.stride() + order]);
     return sum;
   };
-  std::vector<double> sizes(at(n_), 0.0);  // over the step; one that starts from rest moves by a later order
+  std::vector<double> sizes(n_, 0.0);  // over the step; one that starts from rest moves by a later order
   for (int i = 0; i < n_; ++i) {
-    double& size = sizes[at(i)];
+    double& size = sizes[i];
     for (int order = 3; order >= 0; --order) size = size * std::min(theta, 1.0) + norm(i, order);
     for (int order = 4; size == 0 && order <= m_; ++order)
       size = norm(i, order) * std::pow(std::min(theta, 1.0), order);
@@ -112,7 +112,7 @@ double FlowStepper::suggestion(double theta, double share) const {
   const double least = share * *std::ranges::max_element(sizes);
   double best = 1e9;
   for (int i = 0; i < n_; ++i) {
-    const double size = std::max({sizes[at(i)], least_[i], pace_[i], least});
+    const double size = std::max({sizes[i], least_[i], pace_[i], least});
     for (int order : {m_ - 1, m_}) {
       const double last = norm(i, order);
       if (!std::isfinite(last)) return std::nan("");
@@ -128,10 +128,9 @@ bool FlowStepper::boundGrowth(const FlowSet& set, double h) {
   if (mayDamp(set))
     for (int i = 0; i < n_; ++i) growth_.diagonal(i) = series_.dampingBound(i);
   if (isSmooth() && monomials().symbols() >= many) {
-    std::vector<double> centre(at(n_ * n_)), spread(at(n_ * n_));
+    std::vector<double> centre(n_ * n_), spread(at(n_ * n_));
     for (int i = 0; i < n_; ++i)
-      for (int j = 0; j < n_; ++j)
-        centre[at(i * n_ + j)] = series_.jacobianCentre(i, j, h / h0_, spread[at(i * n_ + j)]);
+      for (int j = 0; j < n_; ++j) centre[i * n_ + j] = series_.jacobianCentre(i, j, h / h0_, spread[i * n_ + j]);
     growth_.setCentre(centre, spread);
   } else {
     growth_.setCentre({}, {});
@@ -178,13 +177,13 @@ bool FlowStepper::boundAlong() {
 
 /// y = prop(δ + |∂f/∂w| |w|) + e^{Ah} (|C|R + W)
 void FlowStepper::boundTube() {
-  std::vector<double> pushed(at(n_), 0.0);
-  for (int i = 0; i < n_; ++i) pushed[at(i)] = delta_[i].e0 + inputs_.push(series_, i);
+  std::vector<double> pushed(n_, 0.0);
+  for (int i = 0; i < n_; ++i) pushed[i] = delta_[i].e0 + inputs_.push(series_, i);
   for (int i = 0; i < n_; ++i) {
     double y = 0;
     for (int j = 0; j < n_; ++j)
-      y += growth_.M1(i, j) * pushed[at(j)] + growth_.M2(i, j) * delta_[j].e1 + growth_.M0(i, j) * start_[j];
-    y_[i] = (assumed_.lift.empty() ? y : y + assumed_.lift[at(i)]) * bounds::up + bounds::tiny;
+      y += growth_.M1(i, j) * pushed[j] + growth_.M2(i, j) * delta_[j].e1 + growth_.M0(i, j) * start_[j];
+    y_[i] = (assumed_.lift.empty() ? y : y + assumed_.lift[i]) * bounds::up + bounds::tiny;
     heldTube_[i] = (y + series_.lowNorm(i)) * bounds::up + bounds::tiny;
   }
 }
@@ -212,11 +211,11 @@ bool FlowStepper::proveTube(const FlowSet& set, double h) {
 void FlowStepper::adjustScales() {
   double greatest = 0;  // of all states, in balanced units
   const std::vector<int>& units = growth_.units();
-  for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[i], -units[at(i)]));
+  for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[i], -units[i]));
   for (int i = 0; i < n_; ++i) {
     const bool isUnknown = y_[i] > scale_[i] && monomials().symbols() > 0;
     scale_[i] = std::max(scale_[i], hardlyMoving * y_[i]);
-    if (isUnknown) scale_[i] = std::max(scale_[i], std::ldexp(greatest, units[at(i)]));
+    if (isUnknown) scale_[i] = std::max(scale_[i], std::ldexp(greatest, units[i]));
   }
 }
 
@@ -240,7 +239,7 @@ void FlowStepper::boundErrors(const FlowSet& set) {
 
 /// And of the frame that carries their remainders.
 void FlowStepper::boundFrameErrors(const FlowSet& set) {
-  std::vector<double> left(at(n_), 0.0);  // of |Ψ| total, out of time
+  std::vector<double> left(n_, 0.0);  // of |Ψ| total, out of time
   for (int j = 0; j < n_; ++j) {
     for (int i = 0; i < n_; ++i) nu_[i] = series_.frameDefect(i, j);
     for (int i = 0; i < n_; ++i) {
@@ -250,14 +249,14 @@ void FlowStepper::boundFrameErrors(const FlowSet& set) {
         time += growth_.M2(i, l) * nu_[l].e1;
       }
       epsilon_[i * n_ + j] = (s + time) * bounds::up;
-      left[at(i)] += time * total_[j];
+      left[i] += time * total_[j];
       inTime_[i * n_ + j] = time;
     }
   }
   double most = 0, all = 0;
   for (int i = 0; i < n_; ++i) {
-    const double unit = std::ldexp(1.0, -growth_.units()[at(i)]);
-    most = std::max(most, unit * left[at(i)]);
+    const double unit = std::ldexp(1.0, -growth_.units()[i]);
+    most = std::max(most, unit * left[i]);
     all = std::max(all, unit * start_[i]);
   }
   lost_.frame = all > 0 ? most / all : 0;
@@ -296,7 +295,7 @@ double FlowStepper::worstColumn(const FlowSet& set) const {
   for (int j = 0; j < n_; ++j) {
     double left = 0, size = 0;
     for (int i = 0; i < n_; ++i) {
-      const double unit = std::ldexp(1.0, -growth_.units()[at(i)]);
+      const double unit = std::ldexp(1.0, -growth_.units()[i]);
       left = std::max(left, unit * inTime_[i * n_ + j]);
       size = std::max(size, unit * std::fabs(set.C[i * n_ + j]));
     }
@@ -329,7 +328,7 @@ bool FlowStepper::isTruncationTooLarge(double share) {
 bool FlowStepper::isLooserThanDriven() const {
   double loose = 0, driven = 0;
   for (int i = 0; i < n_; ++i) {
-    const double unit = std::ldexp(1.0, -growth_.units()[at(i)]);
+    const double unit = std::ldexp(1.0, -growth_.units()[i]);
     loose = std::max(loose, unit * (looseBound(i) - driven_[i]));
     driven = std::max(driven, unit * driven_[i]);
   }
@@ -372,7 +371,7 @@ bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
 }
 
 std::string FlowStepper::nameOf(int state) const {
-  return at(state) < names_.size() ? names_[at(state)] : "state " + std::to_string(state);
+  return at(state) < names_.size() ? names_[state] : "state " + std::to_string(state);
 }
 
 /// The time in which a state doubles at its present rate, negative if it shrinks.

@@ -35,20 +35,20 @@ namespace gamut {
 
 /// p(σ), Ψ(σ) and what bounds their distance from the truth at one time of the step.
 struct FlowPoint {
-  ByNumber<double> p;                           // [state][monomial]
-  ByNumber<double> low;                         // of each state, p's second double
-  ByNumber<double> psi;                         // [monomial][row][column]
-  ByNumber<double> psiSum;                      // Σ_α |Ψ_α| [row][column]
-  ByNumber<double> zonotope;                    // Ψ_0 Γ [generator][row], errors' first, then those of inputs
+  std::vector<double> p;                        // [state][monomial]
+  std::vector<double> low;                      // of each state, p's second double
+  std::vector<double> psi;                      // [monomial][row][column]
+  std::vector<double> psiSum;                   // Σ_α |Ψ_α| [row][column]
+  std::vector<double> zonotope;                 // Ψ_0 Γ [generator][row], errors' first, then those of inputs
   std::size_t ofErrors = 0;                     // how many of these numbers are the errors'
   std::vector<std::vector<double>> drivenOfXi;  // linear in each symbol, of those of inputs
-  ByNumber<double> total;                       // R + Σ_j |Γ_j|, inputs included
-  ByNumber<double> ofR;                         // the same of errors alone
-  ByNumber<double> beyond;                      // of each state, what is of higher order in ξ of inputs
-  ByNumber<double> loose;                       // everything but Ψ (r + Γs), a bound for each state
-  ByNumber<double> radius;                      // |x - p - low| ≤ radius
-  ByNumber<double> driven;                      // what of that inputs did
-  ByNumber<double> known;                       // what of that is known of jumps' arguments besides
+  std::vector<double> total;                    // R + Σ_j |Γ_j|, inputs included
+  std::vector<double> ofR;                      // the same of errors alone
+  std::vector<double> beyond;                   // of each state, what is of higher order in ξ of inputs
+  std::vector<double> loose;                    // everything but Ψ (r + Γs), a bound for each state
+  std::vector<double> radius;                   // |x - p - low| ≤ radius
+  std::vector<double> driven;                   // what of that inputs did
+  std::vector<double> known;                    // what of that is known of jumps' arguments besides
 };
 
 /// How the polynomials of a step fade with their grade.
@@ -230,9 +230,9 @@ class FlowStepper {
   const PolynomialSeries& series() const { return series_; }
   double scale() const { return h0_; }
   double theta() const { return theta_; }
-  double totalBound(int j) const { return total_[static_cast<std::size_t>(j)]; }  ///< R + Σ_j |Γ_j|, at the start
-  double tubeBound(int i) const;                                                  ///< |x - p|, always
-  double looseBound(int i) const;  ///< |loose| and what inputs do in the step, at every time
+  double totalBound(int j) const { return total_[j]; }  ///< R + Σ_j |Γ_j|, at the start
+  double tubeBound(int i) const;                        ///< |x - p|, always
+  double looseBound(int i) const;                       ///< |loose| and what inputs do in the step, at every time
   /// The set at the end of the step.
   void advance(FlowSet& set);
   /// Whether all solutions turn so soon that each may be stopped where it just has, at a time of its own; and when they
@@ -254,7 +254,7 @@ class FlowStepper {
   bool isSinceMoment() const { return !turn_->fromMoment.empty(); }
   /// If so, a state by orders of that time, in units of σ; else what turning adds to its polynomials, by orders of σ.
   const std::vector<BoundedPolynomial>& turnedTo(int state) const {
-    return (isSinceMoment() ? turn_->fromMoment : turn_->D)[static_cast<std::size_t>(state)];
+    return (isSinceMoment() ? turn_->fromMoment : turn_->D)[state];
   }
   /// Whether the set at one time tells nothing but what the step as a whole does.
   bool isOpaque() const { return !crossings_.empty() || isUnsettled(); }
@@ -504,29 +504,29 @@ class FlowStepper {
   std::map<std::tuple<std::size_t, bool, TurnKind>, std::unique_ptr<FlowTurn>> turns_;
   std::map<std::pair<std::size_t, bool>, std::unique_ptr<FlowTurn>> passages_;  // of kinks, from above or not
   std::optional<StepTurn> turn_;                                                // of this step
-  ByNumber<double> heldTube_;                                                   // before it
+  std::vector<double> heldTube_;                                                // before it
   bool mayStop_ = false, mayStopEarly_ = false, stops_ = false;
   BoundedPolynomial meeting_;  // when solutions are nearest to each other, in units of σ
   const std::vector<char> nothingHeld_ = {};
-  ByNumber<double> crossed_;   // like e1_, if what these do is known
-  FlowGrowth following_;       // of the states but those that arrivals decide
-  ByNumber<char> arrives_;     // of each state, whether one decides it; none: there are none
-  ByNumber<double> bent_;      // of each state, how far what arrivals do rises above its chord
-  bool areSidesClear_ = true;  // by intervals
+  std::vector<double> crossed_;  // like e1_, if what these do is known
+  FlowGrowth following_;         // of the states but those that arrivals decide
+  std::vector<char> arrives_;    // of each state, whether one decides it; none: there are none
+  std::vector<double> bent_;     // of each state, how far what arrivals do rises above its chord
+  bool areSidesClear_ = true;    // by intervals
   FlowCause why_;
-  std::string obstacle_;              // of the last attempt
-  ByNumber<SeriesError> delta_, nu_;  // of x̃ and of a column of Ψ̃
-  ByNumber<double> start_, E_, y_, e1_, epsilon_, inTime_, scale_, floor_;
-  ByNumber<double> pace_;            // of a state, what is less sets no pace
-  ByNumber<double> least_;           // the floor, or what counts of the state's size over the motion, if that is more
-  ByNumber<double> total_, errors_;  // R + Σ_j |Γ_j| of the set being stepped; without inputs
-  ByNumber<double> looseAtStart_;    // its W
-  ByNumber<double> driven_;          // what inputs do to a state within the step, at most
-  ByNumber<double> second_, third_, turning_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
+  std::string obstacle_;                 // of the last attempt
+  std::vector<SeriesError> delta_, nu_;  // of x̃ and of a column of Ψ̃
+  std::vector<double> start_, E_, y_, e1_, epsilon_, inTime_, scale_, floor_;
+  std::vector<double> pace_;   // of a state, what is less sets no pace
+  std::vector<double> least_;  // the floor, or what counts of the state's size over the motion, if that is more
+  std::vector<double> total_, errors_;            // R + Σ_j |Γ_j| of the set being stepped; without inputs
+  std::vector<double> looseAtStart_;              // its W
+  std::vector<double> driven_;                    // what inputs do to a state within the step, at most
+  std::vector<double> second_, third_, turning_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
   FlowPoint end_;
-  double certified_ = 0;      // work of the step's certificate, without that for generators
-  double ofGenerators_ = 0;   // work for generators, since the certificate was begun
-  ByNumber<double> carried_;  // generators at the step's end
+  double certified_ = 0;         // work of the step's certificate, without that for generators
+  double ofGenerators_ = 0;      // work for generators, since the certificate was begun
+  std::vector<double> carried_;  // generators at the step's end
 };
 
 }  // namespace gamut

@@ -37,7 +37,7 @@ std::vector<std::optional<Form>> formsOf(const Program& f) {
   std::vector<std::optional<Form>> forms;
   const Form zero(at(f.parameters()) + 2, Interval(0.0));
   for (const Node& node : f.nodes()) {
-    const auto known = [&](int operand) { return forms[at(operand)].has_value(); };
+    const auto known = [&](int operand) { return forms[operand].has_value(); };
     std::optional<Form> form;
     const auto single = [&](std::size_t place, const Interval& value) {
       form = zero;
@@ -48,7 +48,7 @@ std::vector<std::optional<Form>> formsOf(const Program& f) {
         single(0, Interval(1.0));
         break;
       case Op::constant:
-        single(1, f.constants()[at(node.a)]);
+        single(1, f.constants()[node.a]);
         break;
       case Op::parameter:
         single(at(node.a) + 2, Interval(1.0));
@@ -56,23 +56,23 @@ std::vector<std::optional<Form>> formsOf(const Program& f) {
       case Op::add:
       case Op::sub:
         if (!known(node.a) || !known(node.b)) break;
-        form = *forms[at(node.a)];
+        form = *forms[node.a];
         for (std::size_t i = 0; i < form->size(); ++i)
-          (*form)[i] = node.op == Op::add ? (*form)[i] + (*forms[at(node.b)])[i] : (*form)[i] - (*forms[at(node.b)])[i];
+          (*form)[i] = node.op == Op::add ? (*form)[i] + (*forms[node.b])[i] : (*form)[i] - (*forms[node.b])[i];
         break;
       case Op::neg:
-        if (known(node.a)) form = scaled(*forms[at(node.a)], Interval(-1.0));
+        if (known(node.a)) form = scaled(*forms[node.a], Interval(-1.0));
         break;
       case Op::mul:
         if (!known(node.a) || !known(node.b)) break;
-        if (isConstant(*forms[at(node.a)]))
-          form = scaled(*forms[at(node.b)], (*forms[at(node.a)])[1]);
-        else if (isConstant(*forms[at(node.b)]))
-          form = scaled(*forms[at(node.a)], (*forms[at(node.b)])[1]);
+        if (isConstant(*forms[node.a]))
+          form = scaled(*forms[node.b], (*forms[node.a])[1]);
+        else if (isConstant(*forms[node.b]))
+          form = scaled(*forms[node.a], (*forms[node.b])[1]);
         break;
       case Op::recip:
-        if (known(node.a) && isConstant(*forms[at(node.a)]) && !contains((*forms[at(node.a)])[1], 0.0))
-          single(1, Interval(1.0) / (*forms[at(node.a)])[1]);
+        if (known(node.a) && isConstant(*forms[node.a]) && !contains((*forms[node.a])[1], 0.0))
+          single(1, Interval(1.0) / (*forms[node.a])[1]);
         break;
       default:
         break;
@@ -135,8 +135,8 @@ std::vector<char> functionsOfTime(const Program& f) {
     const Op op = f.nodes()[i].op;
     bool alone = op != Op::state && op != Op::parameter, does = op == Op::time;
     detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) {
-      alone = alone && isAlone[at(operand)] != 0;
-      does = does || depends[at(operand)] != 0;
+      alone = alone && isAlone[operand] != 0;
+      does = does || depends[operand] != 0;
     });
     isAlone.push_back(static_cast<char>(alone));
     depends.push_back(static_cast<char>(does));
@@ -156,10 +156,10 @@ TimeKinks::TimeKinks(const Program& f, double horizon, double resolution) {
   for (std::size_t i = 0; i < f.nodes().size(); ++i) {
     const Node& node = f.nodes()[i];
     if (!isKink(node)) continue;
-    if (forms[at(node.a)] && !contains((*forms[at(node.a)])[0], 0.0)) {
-      const Form& form = *forms[at(node.a)];
+    if (forms[node.a] && !contains((*forms[node.a])[0], 0.0)) {
+      const Form& form = *forms[node.a];
       linear_.push_back({static_cast<int>(i), form[0], form[1], {form.begin() + 2, form.end()}});
-    } else if (isOfTime[at(node.a)] != 0) {
+    } else if (isOfTime[node.a] != 0) {
       const auto [place, isNew] = known.try_emplace(node.a);
       if (isNew) place->second = switchingOf(Recorder(f).finish({node.a}), horizon, resolution);
       if (place->second.sides.empty()) continue;
@@ -211,7 +211,7 @@ void TimeKinks::giveSides(const std::vector<Embedded>& parameters, double from, 
   }
   for (const Switching& kink : switching_) {
     const auto next = std::ranges::upper_bound(kink.zeros, from, {}, [](const Interval& zero) { return zero.upper(); });
-    const double side = kink.sides[static_cast<std::size_t>(next - kink.zeros.begin())];
+    const double side = kink.sides[next - kink.zeros.begin()];
     if (side != 0 && (next == kink.zeros.end() || to <= next->lower())) series.kinks().giveSide(kink.node, side);
   }
 }

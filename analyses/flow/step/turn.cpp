@@ -23,9 +23,9 @@ Program withOpenSignsGiven(const Program& f, const std::vector<char>& held) {
   const std::vector<int> jumps = jumpsOf(f);
   std::vector<int> instead(f.nodes().size(), -1), outputs;
   for (int j = 0; j < count; ++j)
-    if (held[at(j)] == 0) instead[at(jumps[at(j)])] = recorder.parameter(k + j);
+    if (held[j] == 0) instead[jumps[j]] = recorder.parameter(k + j);
   const std::vector<int> here = recorder.append(f, {}, instead);
-  for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : f.outputNodes()) outputs.push_back(here[output]);
   return recorder.finish(outputs);
 }
 
@@ -41,7 +41,7 @@ std::vector<int> ratesOn(Recorder& recorder, const Program& f, const std::vector
   const Program program = onSides(f, sides);
   const std::vector<int> here = recorder.append(program);
   std::vector<int> rates;
-  for (int i = 0; i < f.states(); ++i) rates.push_back(here[at(program.outputNodes()[at(i)])]);
+  for (int i = 0; i < f.states(); ++i) rates.push_back(here[program.outputNodes()[i]]);
   return rates;
 }
 
@@ -67,7 +67,7 @@ std::vector<int> outputsOn(Recorder& recorder, const FlowJumps& jumps, std::size
   for (int i = 0; i < given.parameters(); ++i) values.push_back(recorder.parameter(i));
   values[at(given.parameters()) - jumps.count() + jump] = recorder.constant(sign);
   const std::vector<int> here = recorder.append(given, values);
-  for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
+  for (const int output : given.outputNodes()) outputs.push_back(here[output]);
   return outputs;
 }
 
@@ -125,10 +125,10 @@ Program liftOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_
     return ratesOn(recorder, f, sides);
   };
   std::vector<int> atPlace = ratesIf(false);
-  atPlace[at(rest.states.position)] = atPlace[at(rest.states.speed)] = recorder.constant(0.0);
+  atPlace[rest.states.position] = atPlace[rest.states.speed] = recorder.constant(0.0);
   const std::vector<int> lifted = ratesIf(true);
-  const double scale = std::fabs(jumps.forms[speed]->states[at(rest.states.speed)]);
-  const int guard = recorder.mul(recorder.constant(scale), lifted[at(rest.states.speed)]);
+  const double scale = std::fabs(jumps.forms[speed]->states[rest.states.speed]);
+  const int guard = recorder.mul(recorder.constant(scale), lifted[rest.states.speed]);
   const int always = recorder.constant(1.0);
   const int ahead = growthAlong(recorder, guard, lifted), growth = growthAlong(recorder, guard, atPlace);
   return turnOf(recorder, lifted, guard, growth, ahead, always);
@@ -172,10 +172,10 @@ Program passageOf(const Program& f, const LinearForm& u, double side) {
       const Node& node = f.nodes()[i];
       const auto form = node.op == Op::abs ? linearFormOf(f, node.a) : std::nullopt;
       if (!form || !isSameForm(*form, u)) continue;
-      instead[i] = sign > 0 ? itself[at(node.a)] : recorder.neg(itself[at(node.a)]);
+      instead[i] = sign > 0 ? itself[node.a] : recorder.neg(itself[node.a]);
     }
     const std::vector<int> here = recorder.append(f, {}, instead);
-    for (std::size_t i = 0; i < n; ++i) rates.push_back(here[at(f.outputNodes()[i])]);
+    for (std::size_t i = 0; i < n; ++i) rates.push_back(here[f.outputNodes()[i]]);
     return rates;
   };
   const std::vector<int> before = ratesWith(side), after = ratesWith(-side);

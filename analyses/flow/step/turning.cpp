@@ -199,7 +199,7 @@ FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, doub
     if (held_[k] != 0) continue;
     if (left_[k] < 0) return Look::released;
     if (left_[k] == static_cast<int>(*jump)) which = k, factor = factor_[k];
-    all[k] = Interval(factor_[k]) * signs[at(left_[k])];
+    all[k] = Interval(factor_[k]) * signs[left_[k]];
   }
   if (!held_.empty() && left_[which] != static_cast<int>(*jump)) return Look::released;
   after[which] = static_cast<char>(arrives);
@@ -300,7 +300,7 @@ FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, doub
       if (held_[k] == 0 && left_[k] < 0)
         return Look::released;
       else if (held_[k] == 0)
-        all[k] = Interval(factor_[k]) * signs[at(left_[k])];
+        all[k] = Interval(factor_[k]) * signs[left_[k]];
   }
   FlowTurn* const of = passageFor(assumed_.passing, assumed_.passingFrom);
   takeKinkSides(*of, 0);
@@ -512,7 +512,7 @@ std::vector<double> FlowStepper::statesWith(const StepTurn& turn) const {
   for (int i = 0; i < n_; ++i)
     for (std::size_t g = 0; g < N; ++g)
       for (std::size_t order = 0; order < orders; ++order)
-        result.push_back(series_.series(i)[g * at(series_.stride()) + order] + turn.D[at(i)][order].c[g]);
+        result.push_back(series_.series(i)[g * at(series_.stride()) + order] + turn.D[i][order].c[g]);
   return result;
 }
 
@@ -525,7 +525,7 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   // The guard is zero, but for what bounds miss, at a solution's own moment and at m(ξ); the slope of its polynomial
   // differs from that at their middle by no more than the second derivative makes of half their distance.
   course_.isTurnMixed = false;
-  std::vector<double> mass(at(monomials().symbols()), 0.0);
+  std::vector<double> mass(monomials().symbols(), 0.0);
   for (std::size_t g = 1; g < root.x.c.size(); ++g)
     monomials().addMass(static_cast<int>(g), std::fabs(root.x.c[g]), mass);
   course_.turnSymbol = greatestOf(mass);
@@ -628,8 +628,7 @@ void FlowStepper::describeLeap(StepTurn& turn, const std::vector<BoundedPolynomi
   const AlongStep& of = *turn.of;
   const BoundedPolynomial steepness = composed(monomials(), rateOf(guard, h0_), turn.when);
   const double bend = of.series().derivativeNorm(of.series().outputNode(turn.of->guard()), 2, theta_) / (h0_ * h0_);
-  for (const double c : own_->jumps().forms[at(turn.own)]->states)
-    turn.ofGuard.push_back(-assumed_.sides[at(turn.own)] * c);
+  for (const double c : own_->jumps().forms[turn.own]->states) turn.ofGuard.push_back(-assumed_.sides[turn.own] * c);
   BoundedPolynomial inverse{{1 / steepness.c[0]}};
   for (int degree = 1; degree <= monomials().degree(); degree *= 2) {  // Newton's method
     BoundedPolynomial off = product(monomials(), inverse, steepness);
@@ -855,7 +854,7 @@ bool FlowStepper::boundDefect(const FlowSet& set, const std::vector<Interval>& s
       relativeDefect = std::max(relativeDefect, proof.longest * defect / std::max(turn.extent[i], heard * scale_[i]));
     double sum = inputs_.rest(row) + slack, ofFrame = turn.leapt[i], turned = 0;
     for (int j = 0; j < n_; ++j) {
-      const double K = std::fabs(turn.K[at(row * n_ + j)]) * total_[j] * bounds::up;
+      const double K = std::fabs(turn.K[row * n_ + j]) * total_[j] * bounds::up;
       turned += K;
       ofFrame += (series_.frameNorm(row, j) * total_[j] + proof.since * K) * bounds::up;
       sum += epsilon_[row * n_ + j] * total_[j];

@@ -93,8 +93,8 @@ std::vector<int> byLength(const Eigen::MatrixXd& psi, const std::vector<double>&
   const double largest = *std::max_element(radii.begin(), radii.end());
   std::vector<double> length;
   for (const int j : order)
-    length.push_back(psi.col(j).norm() * (largest > 0 ? std::max(radii[at(j)], 1e-20 * largest) : 1.0));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[at(a)] > length[at(b)]; });
+    length.push_back(psi.col(j).norm() * (largest > 0 ? std::max(radii[j], 1e-20 * largest) : 1.0));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[a] > length[b]; });
   return order;
 }
 
@@ -126,12 +126,12 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
   const bool isHeldStill = turn_ && tau <= moments->lower();
   const bool crosses = tau != 0 && narrowed && (!crossings_.empty() || turn_);
   const std::vector<double>& left = !crosses ? e1_ : isHeldStill ? turn_->before : crossed_;
-  point.p.assign(at(n_ * N), 0.0);
-  point.psi.assign(at(NJ * n_ * n_), 0.0);
-  point.psiSum.assign(at(n_ * n_), 0.0);
-  point.loose.assign(at(n_), 0.0);
-  point.low.assign(at(n_), 0.0);
-  point.known.assign(at(n_), 0.0);
+  point.p.assign(n_ * N, 0.0);
+  point.psi.assign(NJ * n_ * n_, 0.0);
+  point.psiSum.assign(n_ * n_, 0.0);
+  point.loose.assign(n_, 0.0);
+  point.low.assign(n_, 0.0);
+  point.known.assign(n_, 0.0);
   for (int i = 0; i < n_; ++i) {
     double error = 0;
     if (series_.isFine()) {
@@ -142,7 +142,7 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
       for (int g = 0; g < N; ++g)
         point.p[i * N + g] = hornerWithError(series_.series(i) + g * stride, m_, sigma, error);
     }
-    point.loose[i] = tau == 0 ? set.W[i] : error + left[at(i)];  // the start is known
+    point.loose[i] = tau == 0 ? set.W[i] : error + left[i];  // the start is known
   }
   point.total = total_;
   for (int j = 0; j < n_ && tau != 0; ++j) point.total[j] = (total_[j] + inputs_.total(j)) * bounds::up;
@@ -264,12 +264,12 @@ double FlowStepper::looseBound(int i) const {
   double loose = e1_[i] + driven_[i];
   for (int j = 0; j < n_; ++j) loose += epsilon_[i * n_ + j] * (total_[j] + inputs_.total(j));
   loose += series_.lowNorm(i);
-  if (isUnsettled()) loose += assumed_.unsettled[at(i)];
+  if (isUnsettled()) loose += assumed_.unsettled[i];
   return loose * bounds::up;
 }
 
 double FlowStepper::tubeBound(int i) const {
-  return (E_[i] + series_.lowNorm(i) + (isUnsettled() ? assumed_.unsettled[at(i)] : 0.0)) * bounds::up;
+  return (E_[i] + series_.lowNorm(i) + (isUnsettled() ? assumed_.unsettled[i] : 0.0)) * bounds::up;
 }
 
 void FlowStepper::boundDerivatives() {
@@ -292,7 +292,7 @@ void FlowStepper::sag(double from, double to, std::vector<FlowSag>& sags) const 
     if (growth_.isAbout() && from == 0) besides = (besides + looseAtStart_[i]) * bounds::up;
     if (!bent_.empty()) besides = (besides + bent_[i]) * bounds::up;
     if (isUnsettled())
-      besides = (besides + 2 * assumed_.unsettled[at(i)]) * bounds::up;  // chords begin where solutions were
+      besides = (besides + 2 * assumed_.unsettled[i]) * bounds::up;  // chords begin where solutions were
     sags.push_back({series_.sag(i, from / h0_, to / h0_, second_[i], third_[i], turning_[i]), besides});
   }
 }
@@ -324,7 +324,7 @@ void FlowStepper::turnFrame(FlowSet& set) {
                                     (24.0 * n_ + static_cast<double>(set.generators.size() + set.inputs.size()) / n_));
   // All of it in balanced units z = D⁻¹x, D a diagonal of powers of two: lengths and angles mean something there.
   Eigen::VectorXd unit(n_);
-  for (int i = 0; i < n_; ++i) unit(i) = std::ldexp(1.0, growth_.units()[at(i)]);
+  for (int i = 0; i < n_; ++i) unit(i) = std::ldexp(1.0, growth_.units()[i]);
   const Matrix psi = unit.cwiseInverse().asDiagonal() * frameOf(end_, 0);
 
   // Q, T: QR of Ψ, columns sorted by length × R, so that the longest keeps its direction.
@@ -332,9 +332,9 @@ void FlowStepper::turnFrame(FlowSet& set) {
   Matrix sorted(n_, n_);
   Eigen::VectorXd R(n_), total(n_), w(n_);
   for (int j = 0; j < n_; ++j) {
-    sorted.col(j) = psi.col(order[at(j)]);
-    R(j) = set.R[order[at(j)]];
-    total(j) = end_.total[order[at(j)]];
+    sorted.col(j) = psi.col(order[j]);
+    R(j) = set.R[order[j]];
+    total(j) = end_.total[order[j]];
     w(j) = end_.loose[j] / unit(j);
   }
   const Matrix Q = Eigen::HouseholderQR<Matrix>(sorted).householderQ();
@@ -359,7 +359,7 @@ void FlowStepper::turnFrame(FlowSet& set) {
   // Γ' = fl(T Γ), n roundings an entry, and fl(Qᵀ diag w), one: together (n+1) u (|T| Σ|Γ| + |Qᵀ| w) into the box.
   box += (n_ + 1) * bounds::unit * (T.cwiseAbs() * total + turned);
   Matrix turn(n_, n_);  // T, its columns where the generators' components stand
-  for (int k = 0; k < n_; ++k) turn.col(order[at(k)]) = T.col(k);
+  for (int k = 0; k < n_; ++k) turn.col(order[k]) = T.col(k);
   const Eigen::VectorXd merged = turnGenerators(set, turn, (w.asDiagonal() * Q).transpose());
   Eigen::Map<Eigen::VectorXd>(set.R.data(), n_) = (T.cwiseAbs() * R + merged + box) * bounds::up;
   if (!inputs_.empty()) mergeInputs(set, at(inputs_.count()), mostInputNumbers);
@@ -385,24 +385,24 @@ void FlowStepper::multiplyGenerators(FlowSet& set, GeneratorRest& rest) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(n_);
   for (int g = 0; g < powers; ++g) {
     frames.emplace_back(frameOf(end_, g).cwiseAbs());
-    for (int q = 0; q <= m.grade(g); ++q) high[at(q)] += frames.back();
+    for (int q = 0; q <= m.grade(g); ++q) high[q] += frames.back();
     sizes.emplace_back(Eigen::VectorXd::Zero(n_));
     countAsGenerators([&] {
       kernels::addColumnSizes(set.generators.data() + g * block, n_, static_cast<int>(count), sizes.back().data());
     });
-    size[at(m.grade(g))] += sizes.back();
+    size[m.grade(g)] += sizes.back();
     all += sizes.back();
   }
   rest.sum = Eigen::Map<const Eigen::VectorXd>(end_.loose.data(), n_);
   Eigen::VectorXd little = (m.symbols() > few ? littleOfMany : littleOfFew) * rest.sum;
-  for (int q = 1; q <= degree; ++q) rest.sum += high[at(degree - q + 1)] * size[at(q)];
+  for (int q = 1; q <= degree; ++q) rest.sum += high[degree - q + 1] * size[q];
   std::vector<kernels::ColumnTerm> terms;
   int most = 1;
   for (int g = powers; g-- > 0;) {
-    const int begin = m.first()[at(g)], end = m.first()[at(g) + 1];
+    const int begin = m.first()[g], end = m.first()[at(g) + 1];
     for (int pair = begin; pair < end; ++pair) {
-      const auto [a, b] = m.pairs()[at(pair)];
-      const Eigen::VectorXd product = frames[at(a)] * sizes[at(b)];
+      const auto [a, b] = m.pairs()[pair];
+      const Eigen::VectorXd product = frames[a] * sizes[b];
       if ((product.array() <= little.array()).all()) {
         little -= product;
         rest.sum += product;
@@ -428,7 +428,7 @@ void FlowStepper::carryInputs(FlowSet& set, GeneratorRest& rest) {
   const Monomials& m = monomials();
   Work::count(Work::matrixTerm,
               static_cast<double>(set.inputs.size()) * (n_ + 4) * static_cast<double>(1 + 2 * set.half.size()));
-  std::vector<double> own(at(n_), 0.0), ofXi(at(n_), 0.0);
+  std::vector<double> own(n_, 0.0), ofXi(at(n_), 0.0);
   set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
   set.inputsOfXi.resize(set.half.size());
   addColumnSizes(set.inputs, own);
@@ -456,7 +456,7 @@ void FlowStepper::carryInputs(FlowSet& set, GeneratorRest& rest) {
 void FlowStepper::carryGenerators(FlowSet& set) {
   const int powers = series_.frameCount();
   if (std::ranges::any_of(set.R, [](double r) { return r > 0; })) countAsGenerators([&] { appendBox(set, set.R); });
-  set.R.assign(at(n_), 0.0);
+  set.R.assign(n_, 0.0);
   // All columns of which ofGenerators_ is the work.
   const std::size_t ofInputs = (set.inputs.size() + inputs_.generators().size()) / at(n_);
   const double columns =
@@ -465,9 +465,9 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   multiplyGenerators(set, rest);
   if (!inputs_.empty()) carryInputs(set, rest);
   set.generators.swap(carried_);
-  std::vector<double> fresh(at(n_));
-  for (int i = 0; i < n_; ++i) fresh[at(i)] = rest.sum(i) * bounds::up + bounds::tiny;
-  set.W.assign(at(n_), 0.0);
+  std::vector<double> fresh(n_);
+  for (int i = 0; i < n_; ++i) fresh[i] = rest.sum(i) * bounds::up + bounds::tiny;
+  set.W.assign(n_, 0.0);
   for (std::size_t i = 0; i < arrives_.size(); ++i)  // of what arrives a hull alone is known: boundArrivals
     if (arrives_[i] != 0 && end_.known[i] > 0) std::swap(set.W[i], fresh[i]);
   appendBox(set, fresh);
@@ -479,7 +479,7 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   }
   const std::size_t there = set.generators.size() / (set.powers * at(n_));
   if (static_cast<double>(there) > kept) mergeGenerators(set, monomials(), static_cast<std::size_t>(kept / 2));
-  set.C.assign(at(n_ * n_), 0.0);
+  set.C.assign(n_ * n_, 0.0);
   for (int i = 0; i < n_; ++i) set.C[i * n_ + i] = 1;
 }
 
@@ -517,7 +517,7 @@ void FlowStepper::endStep(FlowSet& set) {
   set.units = growth_.units();
   if (set.first.empty())
     for (int i = 0; i < n_; ++i) set.first.push_back(series_.norm(i));
-  set.largest.resize(at(n_), 0.0);
+  set.largest.resize(n_, 0.0);
   for (int i = 0; i < n_; ++i) set.largest[i] = std::max(set.largest[i], series_.norm(i));
 }
 

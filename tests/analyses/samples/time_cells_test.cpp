@@ -8,6 +8,7 @@
 
 #include "analyses/samples/arbiter.hpp"
 #include "analyses/samples/pack_witness.hpp"
+#include "scalars/index.hpp"
 #include "scalars/recorded.hpp"
 
 namespace gamut {

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "scalars/algebra/linear_system.hpp"
+#include "scalars/index.hpp"
 #include "tests/scalars/program/random_program.hpp"
 #include "tests/scalars/reference.hpp"
 

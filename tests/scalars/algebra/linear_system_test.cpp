@@ -5,6 +5,7 @@
 #include <bit>
 #include <stdexcept>
 
+#include "scalars/index.hpp"
 #include "tests/scalars/high_precision.hpp"
 #include "tests/scalars/reference.hpp"
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/index.hpp"
 #include "tests/scalars/high_precision.hpp"
 #include "tests/scalars/program/random_program.hpp"
 #include "tests/scalars/reference.hpp"

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/index.hpp"
 #include "tests/scalars/high_precision.hpp"
 #include "tests/scalars/program/random_program.hpp"
 #include "tests/scalars/reference.hpp"

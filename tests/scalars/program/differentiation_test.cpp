@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scalars/index.hpp"
 #include "scalars/program/directions.hpp"
 #include "scalars/program/passes.hpp"
 #include "scalars/recorded.hpp"

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "scalars/evaluation/evaluate.hpp"
+#include "scalars/index.hpp"
 #include "tests/scalars/high_precision.hpp"
 
 namespace gamut::testing {

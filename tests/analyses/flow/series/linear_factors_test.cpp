@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "scalars/index.hpp"
 #include "tests/analyses/flow/containment.hpp"
 
 namespace gamut::testing {

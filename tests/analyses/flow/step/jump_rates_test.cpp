@@ -6,6 +6,7 @@
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/step/step.hpp"
+#include "scalars/index.hpp"
 #include "tests/analyses/flow/containment.hpp"
 #include "tests/analyses/reference.hpp"
 
