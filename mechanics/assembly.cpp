@@ -2,10 +2,13 @@
 #include "mechanics/assembly.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
 #include "mechanics/description/names.hpp"
+#include "mechanics/description/refusal.hpp"
 
 namespace gamut {
 namespace {
@@ -15,6 +18,21 @@ std::vector<std::string> keys(const Map& map) {
   std::vector<std::string> names;
   for (const auto& entry : map) names.push_back(entry.first);
   return names;
+}
+
+[[noreturn]] void refuseOpen(const Mechanism& mechanism, bool isFar) {
+  std::string loops, by;
+  for (const Mechanism::Closed& loop : mechanism.loops()) {
+    loops += (loops.empty() ? "'" : "', '") + loop.element;
+    for (const std::string& name : loop.by) by += (by.empty() ? "" : ", ") + name;
+  }
+  const bool isOne = mechanism.loops().size() == 1;
+  throw UnfitPart(mechanism.loops().front().element,
+                  (isOne ? "the loop " : "the loops ") + loops + "' cannot be closed by " + by +
+                      (isFar ? " near their initial values" : ", which do not move all that has to close"),
+                  isFar ? "numbers that fit together, or initial values nearer to the closed position"
+                        : "coordinates that open it independently, named in `dependent`, or a closure that holds less "
+                          "(`pin` in planar loops)");
 }
 
 }  // namespace
@@ -44,11 +62,21 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
       states_.push_back(&speeds.back().get().rate);
     } else if (const auto variable = parts_.variables_.find(names[i]); variable != parts_.variables_.end()) {
       states_.push_back(&variable->second->position);
-      positionRates_.push_back([moved = variable->second] { return moved->rate; });
+      const auto dependent = std::ranges::find(mechanism.dependents(), names[i]) - mechanism.dependents().begin();
+      if (mechanism.coordinates().find(names[i])->isDependent)
+        positionRates_.push_back([this, moved = variable->second, dependent] {
+          return moved->rate - S(System<S>::pull) * opening_[dependent];
+        });
+      else
+        positionRates_.push_back([moved = variable->second] { return moved->rate; });
     } else {
       states_.push_back(&parts_.values_.at(names[i]));
       (i < positions ? positionRates_ : ownRates_).push_back(parts_.rates_.at(names[i]));
     }
+  }
+  for (const std::string& name : mechanism.dependents()) {
+    speeds.push_back(*parts_.variables_.at(name));
+    dependents_.push_back(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
   }
   const auto& gravity = mechanism.gravity();
   system_ = std::make_unique<System<S>>(std::move(speeds), chain_, *parts_.frames_.at(Mechanism::inertialFrame),
@@ -56,6 +84,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   if (const auto& shaking = mechanism.baseAcceleration())
     system_->shake([of = std::array{parts_.signal((*shaking)[0]), parts_.signal((*shaking)[1]),
                                     parts_.signal((*shaking)[2])}] { return Vector3<S>(of[0](), of[1](), of[2]()); });
+  system_->depend(dependents_.size());
   unfoldEnds(mechanism);
   parts_.solve_ = [this] { solve(); };
   measureFrames();
@@ -66,8 +95,78 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
     initialState_.push_back(parts_.number(initial));
     origin_.push_back(isDifference[origin_.size()] ? initialState_.back() : S(0.0));
   }
+  closeLoops(mechanism, !freeParameters.empty());
   // What is recorded is the motion from any state; at the initial one it may be singular.
   if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
+}
+
+/// Moves to the initial positions.
+template <class S>
+void Assembly<S>::placeAtStart() {
+  for (std::size_t i = 0; i < states_.size(); ++i) *states_[i] = initialState_[i];
+  system_->doMotion(MotionLevel::position);
+}
+
+template <class S>
+std::vector<S> Assembly<S>::closingMap(std::span<const S> delta) {
+  placeAtStart();
+  const LinearSystem<S> rows = system_->dependentRows();
+  for (std::size_t i = 0; i < dependents_.size(); ++i)
+    *states_[dependents_[i]] = initialState_[dependents_[i]] + delta[i];
+  system_->doMotion(MotionLevel::position);
+  std::vector<S> image = system_->residuals();
+  rows.solve(image);
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = delta[i] - image[i];
+  return image;
+}
+
+/// Newton's steps from the initial positions of dependent coordinates. Of doubles, shortened where they lead away
+/// (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3), until the loops are closed; of what is
+/// recorded so many from there as tolerances of practice need, none where no number is free. Other scalars start as is.
+template <class S>
+void Assembly<S>::closeLoops(const Mechanism& mechanism, bool hasFreeParameters) {
+  if (dependents_.empty()) return;
+  const auto openingAt = [&](const std::vector<S>& positions) {
+    for (std::size_t i = 0; i < dependents_.size(); ++i) initialState_[dependents_[i]] = positions[i];
+    placeAtStart();
+    return system_->opening();
+  };
+  const auto moved = [](std::vector<S> positions, const std::vector<S>& by, double share) {
+    for (std::size_t i = 0; i < by.size(); ++i) positions[i] = positions[i] - S(share) * by[i];
+    return positions;
+  };
+  std::vector<S> at;
+  for (const std::size_t i : dependents_) at.push_back(initialState_[i]);
+  if constexpr (std::is_same_v<S, double>) {
+    // Largest last, so that what is no number is the largest.
+    const auto size = [](const std::vector<double>& by) {
+      double largest = 0;
+      for (const double each : by) largest = std::abs(each) <= largest ? largest : std::abs(each);
+      return largest;
+    };
+    constexpr int most = 200;
+    constexpr double closed = 1e-9;
+    std::vector<double> by = openingAt(at);
+    for (int i = 0; i < most && size(by) > 0; ++i) {
+      double share = 1;
+      std::vector<double> next = moved(at, by, share), rest = openingAt(next);
+      while (!(size(rest) < (1 - share / 4) * size(by)) && share > 1e-4) {
+        share /= 2;
+        rest = openingAt(next = moved(at, by, share));
+      }
+      if (!(size(rest) < size(by))) break;
+      at = std::move(next);
+      by = std::move(rest);
+    }
+    openingAt(at);
+    if (!(size(by) < closed)) refuseOpen(mechanism, size(by) == size(by));
+  } else if constexpr (std::is_same_v<S, Recorded>) {
+    const Assembly<double> nominal(mechanism);
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] = S(nominal.initialState()[dependents_[i]]);
+    constexpr int steps = 4;
+    for (int i = 0; hasFreeParameters && i < steps; ++i) at = moved(at, openingAt(at), 1);
+    for (std::size_t i = 0; i < at.size(); ++i) initialState_[dependents_[i]] = origin_[dependents_[i]] = at[i];
+  }
 }
 
 template <class S>
@@ -98,11 +197,12 @@ void Assembly<S>::takeNumbers(const Mechanism& mechanism, const std::vector<std:
     parts_.initials_.emplace(initial.name, constant<S>(initial.nominal));
   std::set<std::string> named;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!mechanism.isParameter(freeParameters[i]))
+    if (!mechanism.isParameter(freeParameters[i]) && mechanism.initialValues().find(freeParameters[i]) == nullptr)
       throw std::invalid_argument(unknownName("parameter", freeParameters[i], parameters));
     if (!named.insert(freeParameters[i]).second)
       throw std::invalid_argument("the free parameter '" + freeParameters[i] + "' is named twice");
-    parts_.parameters_.at(freeParameters[i]) = values[i];
+    (mechanism.isParameter(freeParameters[i]) ? parts_.parameters_ : parts_.initials_).at(freeParameters[i]) =
+        values[i];
     parts_.known_.erase(freeParameters[i]);
   }
   for (const Mechanism::Derived& derived : mechanism.derived()) {
@@ -222,7 +322,9 @@ void Assembly<S>::setState(std::span<const S> x, const S& time) {
   parts_.time_ = time;
   for (std::size_t i = 0; i < x.size(); ++i) *states_[i] = x[i];
   for (auto& [name, speed] : parts_.speeds_) speed->acceleration = S(0.0);
+  system_->close();
   system_->doMotion();
+  opening_.clear();
   known_ = Known::state;
 }
 
@@ -295,8 +397,10 @@ void Assembly<S>::solve() {
 template <class S>
 std::vector<S> Assembly<S>::rates(Formulation formulation) {
   std::vector<S> result;
+  if (!dependents_.empty()) opening_ = system_->opening();
   for (const Signal<S>& rate : positionRates_) result.push_back(rate());
-  for (const S& acceleration : accelerations(formulation)) result.push_back(acceleration);
+  const std::vector<S> found = accelerations(formulation);
+  result.insert(result.end(), found.begin(), found.end() - static_cast<std::ptrdiff_t>(dependents_.size()));
   for (const Signal<S>& rate : ownRates_) result.push_back(rate());
   return result;
 }

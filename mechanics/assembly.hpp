@@ -38,7 +38,9 @@ class Assembly {
   void setState(std::span<const S> x, const S& time = S(0.0));
   /// The same by the states of a recorded motion: one whose initial value follows from a free parameter
   /// (Mechanism::startsWith) is given as its difference from that, which is zero at the start, so that each parameter
-  /// stands in one place; motions that strike rigid ends are unfolded (equations/unfolding.hpp).
+  /// stands in one place; coordinates that close loops likewise, as differences from where Newton's steps come to from
+  /// the nominal position, of which the start is the remainder; motions that strike rigid ends are unfolded
+  /// (equations/unfolding.hpp).
   void setMotion(std::span<const S> x, const S& time = S(0.0));
   /// u̇ for the present state.
   std::vector<S> accelerations(Formulation formulation = Formulation::sparse);
@@ -61,6 +63,10 @@ class Assembly {
     known_ = Known::state;
     return *system_;
   }
+  /// Newton's map at the start, about where the dependent coordinates are: δ − J⁻¹ g(. + δ), J at δ = 0. Its fixed
+  /// points are what the loops are closed at.
+  std::vector<S> closingMap(std::span<const S> delta);
+
   /// A number of the mechanism: a formula over its parameters.
   S number(const Expression& number) const { return parts_.number(number); }
   /// A frame by name. Throws std::invalid_argument, naming the nearest, if there is none.
@@ -73,6 +79,8 @@ class Assembly {
   std::vector<S> withOrigin(std::span<const S> x) const;
   void setUnfolded(std::vector<S> states, const std::vector<S>& signs, const S& time, bool isSmooth = false);
   void unfoldEnds(const Mechanism& mechanism);
+  void closeLoops(const Mechanism& mechanism, bool hasFreeParameters);
+  void placeAtStart();
   void measureFrames();
   void measureReactions(const Mechanism& mechanism);
   void measureWhole();
@@ -93,6 +101,8 @@ class Assembly {
   std::unique_ptr<Unfolding<S>> unfolding_;
   std::vector<S*> states_;  // in the order of Mechanism::stateNames()
   std::vector<Signal<S>> positionRates_, ownRates_;
+  std::vector<std::size_t> dependents_;   // states: the positions of coordinates that close loops, in their order
+  std::vector<S> opening_;                // of the present state
   std::vector<S> initialState_, origin_;  // the second: what differences of states are from; else zero
   Known known_ = Known::state;
 };

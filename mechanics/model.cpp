@@ -74,6 +74,16 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
   }
 }
 
+Program recordClosing(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
+  const int dependents = static_cast<int>(mechanism.dependents().size());
+  return record(dependents, static_cast<int>(freeParameters.size()), dependents,
+                [&](auto, const auto& delta, const auto& p, auto& y) {
+                  const std::vector<Recorded> image =
+                      Assembly<Recorded>(mechanism, freeParameters, p).closingMap(delta);
+                  for (std::size_t i = 0; i < image.size(); ++i) y[i] = image[i];
+                });
+}
+
 std::vector<RestingPair> restsOf(const Mechanism& mechanism) {
   const std::vector<std::string> names = mechanism.stateNames();
   const auto placeOf = [&](const std::string& state) {

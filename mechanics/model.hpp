@@ -26,6 +26,10 @@ class Assembly;
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                      Formulation formulation = Formulation::sparse);
 
+/// Newton's map of the loops at the start (Assembly::closingMap), of n differences as states, one a dependent
+/// coordinate, and of the named parameters.
+Program recordClosing(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
+
 /// Throws UnfitPart if points between which an element measures a length do not lie apart at the start.
 void checkStart(const Mechanism& mechanism);
 

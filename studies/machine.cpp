@@ -9,9 +9,9 @@
 #include <numbers>
 #include <span>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
+#include "analyses/roots/root_family.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/recorded.hpp"
@@ -22,13 +22,10 @@
 namespace gamut {
 namespace {
 
-/// Those of the uncertain quantities that no state starts with.
 std::vector<std::string> freeParametersOf(const Study& study) {
-  const std::vector<std::string> states = study.mechanism.stateNames();
-  const std::unordered_set<std::string> isState(states.begin(), states.end());
   std::vector<std::string> names;
   for (const UncertainQuantity& uncertain : study.uncertain)
-    if (!isState.contains(uncertain.quantity)) names.push_back(uncertain.quantity);
+    if (study.mechanism.isFreeParameter(uncertain.quantity)) names.push_back(uncertain.quantity);
   return names;
 }
 
@@ -106,7 +103,7 @@ void takeNumbers(Machine& machine) {
   std::unordered_map<std::string, int> slotOf;
   for (std::size_t i = 0; i < names.size(); ++i) slotOf[names[i]] = static_cast<int>(i);
   for (const UncertainQuantity& uncertain : machine.study.uncertain) {
-    const auto state = slotOf.find(uncertain.quantity);
+    const auto state = mechanism.isFreeParameter(uncertain.quantity) ? slotOf.end() : slotOf.find(uncertain.quantity);
     motion.uncertain.push_back(uncertain.uncertain);
     motion.slot.push_back(state != slotOf.end() ? state->second : static_cast<int>(machine.box.size()));
     if (state == slotOf.end()) machine.box.push_back(mechanism.nominal(uncertain.quantity));
@@ -118,6 +115,18 @@ void takeNumbers(Machine& machine) {
     machine.box[slot] = motion.uncertain[i].range;
     motion.nominal[slot] = motion.uncertain[i].nominal;
   }
+}
+
+/// Dependent coordinates start at what is left between Newton's steps and the closed loops, for all values of the box.
+void closeLoops(Machine& machine) {
+  const Mechanism& mechanism = machine.study.mechanism;
+  if (!mechanism.isClosed()) return;
+  machine.closing = recordClosing(mechanism, machine.freeParameters);
+  const std::vector<std::string> names = mechanism.stateNames();
+  for (const std::string& dependent : mechanism.dependents())
+    machine.remainders.push_back(static_cast<int>(std::ranges::find(names, dependent) - names.begin()));
+  machine.box = machine.closed(std::move(machine.box));
+  for (const int slot : machine.remainders) machine.motion.nominal[slot] = midpoint(machine.box[slot]);
 }
 
 void takeLevels(Machine& machine) {
@@ -176,8 +185,17 @@ Machine::Machine(Study of) : study(std::move(of)), freeParameters(freeParameters
   motion.motion = recordedMotion(study);
   cpu = processCpuSeconds() - start;
   takeNumbers(*this);
+  closeLoops(*this);
   takeCourses(*this);
   takeLevels(*this);
+}
+
+Box Machine::closed(Box other) const {
+  if (remainders.empty()) return other;
+  const RootFamily family = proveRoots(closing, Box(other.begin() + static_cast<std::ptrdiff_t>(states), other.end()));
+  if (family.remainder.empty()) refuseOpenLoops(study, freeParameters, *family.open);
+  for (std::size_t i = 0; i < remainders.size(); ++i) other[remainders[i]] = family.remainder[i];
+  return other;
 }
 
 Program Machine::alongCourses(const Program& program) const {

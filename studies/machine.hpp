@@ -44,11 +44,16 @@ struct Machine {
   std::vector<VaryingParameter> varying;    ///< free parameters that vary in time
   std::vector<VaryingQuantity> courses;     ///< what of them the samples take, turning no slower and no faster than so
   double slowest = 0, fastest = 0;          ///< rad/s
-  UncertainMotion motion;  ///< the equations as samples follow them: what varies in time takes the course that its
-                           ///< number chooses
+  std::vector<int> remainders;  ///< initial values of coordinates that close loops (FlowOptions::remainders)
+  Program closing;              ///< recordClosing(), of a mechanism with loops
+  UncertainMotion motion;       ///< the equations as samples follow them: what varies in time takes the course that its
+                                ///< number chooses
 
   /// In which what varies in time is a parameter; kinematics: g of parameters alone.
   const Motion& equations() const { return courses.empty() ? motion.motion : motion.switching.motion; }
+  /// A box of other ranges, whose loops are proved to close for all of its values. Throws StudyError where
+  /// they are not.
+  Box closed(Box other) const;
   /// A program of states and free parameters as samples follow it: what varies in time takes its course.
   Program alongCourses(const Program& program) const;
 };

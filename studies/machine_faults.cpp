@@ -105,6 +105,18 @@ void refuseJointsAlike(const Study& study) {
 
 }  // namespace
 
+void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part) {
+  std::string values;
+  for (std::size_t i = 0; i < part.size(); ++i)
+    values += fmt::format("{}'{}' in {}", i == 0 ? " for " : ", ", freeParameters[i], toString(part[i]));
+  const Mechanism::Closed& first = study.mechanism.loops().front();
+  const bool isOne = study.mechanism.loops().size() == 1;
+  refuse(study.places.of(first.element),
+         fmt::format("{} not proved to close{}",
+                     isOne ? fmt::format("the loop '{}' is", first.element) : "the loops are", values),
+         "narrower intervals, or a position that is farther from where the loop cannot be closed");
+}
+
 void refuseMechanism(const Study& study) try { throw; } catch (const UndefinedOutput& error) {
   refuse(study.places.outputs[error.output()],
          fmt::format("'{}' {}", study.outputs[error.output()].quantity, error.what()), "a formula that has a value");

@@ -1,6 +1,10 @@
 // Why a study's mechanism cannot be moved, with the place in the study's file.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "scalars/interval.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
@@ -8,5 +12,8 @@ namespace gamut {
 /// While an exception is handled that recording the study's mechanism threw: throws the StudyError that it means, or
 /// that exception again.
 [[noreturn]] void refuseMechanism(const Study& study);
+
+/// Throws a StudyError: loops are not proved to close for values of the free parameters in a part of their box.
+[[noreturn]] void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part);
 
 }  // namespace gamut

@@ -16,11 +16,12 @@ namespace gamut {
 using detail::at;
 
 Embedding::Embedding(const Box& box, int states, const std::vector<VaryingParameter>& inputs,
-                     const std::vector<int>& weights, int dependent) {
+                     const std::vector<int>& weights, int dependent, const std::vector<int>& remainders) {
   std::size_t wide = 0;
   for (const Interval& value : box) {
     const int parameter = static_cast<int>(components.size()) - states;
-    const bool isDependent = parameter < 0 && parameter >= -dependent;
+    const bool isDependent = (parameter < 0 && parameter >= -dependent) ||
+                             std::ranges::find(remainders, static_cast<int>(components.size())) != remainders.end();
     const bool isInput = std::ranges::find(inputs, parameter, &VaryingParameter::parameter) != inputs.end();
     Embedded e;
     e.centre = midpoint(value);

@@ -20,11 +20,12 @@ struct Embedding {
   double widest = 0;  ///< greatest half-width relative to its centre, at most 1
 
   /// `inputs` vary in time and have no symbol: parameters, behind `states` initial values.
-  /// The last `dependent` initial values follow from the others: they have none either.
+  /// The last `dependent` initial values follow from the others, `remainders` are what such functions leave open: they
+  /// have none either.
   /// `weights`: of Emphasis, for all wide components in order; the width of one of weight 0 is carried as rounding is.
   /// Without weights every one gets a symbol.
   Embedding(const Box& box, int states, const std::vector<VaryingParameter>& inputs,
-            const std::vector<int>& weights = {}, int dependent = 0);
+            const std::vector<int>& weights = {}, int dependent = 0, const std::vector<int>& remainders = {});
   explicit Embedding(const Box& box) : Embedding(box, 0, {}) {}
 
   /// Of a thin box: its components as they are known.

@@ -173,7 +173,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   for (const Box& level : wholeLevels) levels.push_back(formulation.boxOf(level));
   const int n = formulation.motion.states();
   const Program* starts = formulation.starts.outputs() > 0 ? &formulation.starts : nullptr;
-  const Embedding uncertain(box, n, options.varying, {}, formulation.starts.outputs());
+  const Embedding uncertain(box, n, options.varying, {}, formulation.starts.outputs(), options.remainders);
   FlowOptions own = options;
   // They are of thin boxes, not of a thin level of a wide one; and of components in the order of the box itself.
   if (uncertain.symbols > 0 || starts != nullptr) own.precise.clear();
@@ -320,7 +320,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
            std::ranges::all_of(surfaces->boxOf(box), [](const Interval& range) { return isBounded(range); });
   };
   const auto& surfaces = hasClock ? parts_->byClockAndSurfaces : parts_->bySurfaces;
-  const int symbols = Embedding(box, motion.states(), {}).symbols;
+  const int symbols = Embedding(box, motion.states(), {}, {}, 0, parts_->options.remainders).symbols;
   const bool bySurfaces = isDefined(surfaces), hasSymbols = symbols > 0;
   const bool mayPass = options.varying.empty() && mayTurn(motion), mayHaveOwnTimes = !isTimed || hasClock;
   const auto staged = [&](const FlowFormulation& plain, const FlowFormulation& own, FlowBudget part) {

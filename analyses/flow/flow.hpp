@@ -73,6 +73,8 @@ struct FlowOptions {
   int jobs = 1;       ///< threads that follow pieces
   std::vector<VaryingParameter> varying;  ///< all other parameters are constant in time
   std::vector<PreciseValue> precise;      ///< each within its component of the box
+  std::vector<int> remainders;            ///< initial values that are narrow beside what they are added to: carried as
+                                          ///< rounding is
   std::vector<RestingPair> rests;         ///< where solutions may come to rest by ever shorter turns
   FlowAside aside;                        ///< for Tube::asides
   bool dropsUnneeded = false;   ///< states that neither outputs nor what is looked at besides depend on stay at their

@@ -42,7 +42,8 @@ struct FlowQuestion {
   const Program* starts = nullptr;  ///< FlowFormulation's, if it has any
 
   Embedding embed(const Box& box, const std::vector<int>& weights = {}) const {
-    return {box, motion.states(), options.varying, weights, starts == nullptr ? 0 : starts->outputs()};
+    return {
+        box, motion.states(), options.varying, weights, starts == nullptr ? 0 : starts->outputs(), options.remainders};
   }
 };
 

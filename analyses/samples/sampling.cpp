@@ -266,7 +266,7 @@ std::unique_ptr<PointSequence> sequenceOf(Plan plan, std::size_t k, std::size_t 
 
 }  // namespace
 
-std::string_view nameOf(Plan plan) { return planNames[plan]; }
+std::string_view nameOf(Plan plan) { return planNames[static_cast<std::size_t>(plan)]; }
 
 Plan planNamed(std::string_view name) {
   std::string choices;

@@ -80,7 +80,7 @@ void addGeneral(TransformationPoints& points, const std::vector<Box>& cuts, cons
 
 }  // namespace
 
-std::string_view nameOf(Transformation method) { return transformationNames[method]; }
+std::string_view nameOf(Transformation method) { return transformationNames[static_cast<std::size_t>(method)]; }
 
 Transformation transformationNamed(std::string_view name) {
   std::string choices;

@@ -65,6 +65,12 @@ struct FixedPoint {
   ExpressionVector place = {0.0, 0.0, 0.0};  ///< in that frame [m]
 };
 
+/// What closes on itself: two frames, and by how many equations.
+struct Loop {
+  std::string from, to;
+  std::size_t rows = 0;
+};
+
 class Fields {
  public:
   Fields() = default;
@@ -129,6 +135,9 @@ class Fields {
   virtual Coordinate struckCoordinate(const Word& word, std::string& name, Start& /*start*/) {
     return coordinateOf(word, name);
   }
+  /// Coordinates that close a loop between two frames, so many: they follow from the others, and their initial
+  /// positions are where the closed position is looked for. Without names they are chosen by structure.
+  virtual void dependentCoordinates(const Word& /*word*/, std::vector<std::string>& /*names*/, const Loop& /*loop*/) {}
   /// An expression of time alone and parameters.
   virtual void timeFunction(const Word& word, Expression& number) = 0;
   /// A column of a CSV file over its first, which is time: the words of the file and of the column.

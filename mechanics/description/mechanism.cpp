@@ -148,7 +148,7 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
   if (isFrame_.contains(to))
     refuse("the frame " + inQuotes(to) + " is defined twice",
            "a new frame for " + inQuotes(of) +
-               " (closed loops are not there yet: frames form a tree, which springs and bushings alone can close)");
+               " (frames form a tree, and a `closure` or a `rod` closes loops between two)");
   if (unitOfMeasured(to + ".position.x") != nullptr)
     refuse("the frame " + inQuotes(to) + " has the name of an element whose position is measured", "another name");
   if (isQuantity(to)) refuse("a frame cannot be named " + inQuotes(to) + ": that is a quantity", "another name");
@@ -266,17 +266,78 @@ void Mechanism::drive(const std::string& coordinate, const std::string& by) {
     refuse("the joint " + inQuotes(coordinate) + " is driven by " + inQuotes(by) + ", so that it cannot strike " +
                inQuotes(end->second),
            "a joint that moves freely");
-  for (const std::string& name : {driven->name, driven->rate}) {
-    const NamedValue* initial = initials_.find(name);
-    if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
-      refuse("the joint " + inQuotes(driven->element) + " has initial values, but is driven by " + inQuotes(by),
-             "no initial values: it starts where it is driven");
-  }
+  if (driven->isDependent)
+    refuse("the joint " + inQuotes(coordinate) + " closes a loop, but is driven by " + inQuotes(by),
+           "its drive ahead of the loop, which then is closed by another joint");
+  for (const std::string& name : {driven->name, driven->rate})
+    requireNoInitial(name, *driven, "is driven by " + inQuotes(by));
   initials_.erase(driven->name);
   initials_.erase(driven->rate);
   positions_.erase(driven->name);
   speeds_.erase(driven->rate);
   driven->isDriven = true;
+}
+
+void Mechanism::requireNoInitial(const std::string& number, const JointCoordinate& of, const std::string& by) const {
+  const NamedValue* initial = initials_.find(number);
+  if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
+    refuse("the joint " + inQuotes(of.element) + " has " + (of.isDependent ? "an initial rate" : "initial values") +
+               ", but " + by,
+           of.isDependent ? "none: it follows from the rates of the others"
+                          : "no initial values: it starts where it is driven");
+}
+
+void Mechanism::depend(const std::string& coordinate, const std::string& by) {
+  JointCoordinate& dependent = *coordinates_.find(coordinate);
+  const std::string use = "the joint " + inQuotes(coordinate) + " cannot close " + inQuotes(by) + ": it ";
+  if (dependent.isDriven) refuse(use + "is driven", "a joint that moves freely");
+  if (dependent.isDependent) refuse(use + "closes another loop, or is named twice", "another joint");
+  if (const auto end = struck_.find(coordinate); end != struck_.end())
+    refuse(use + "strikes " + inQuotes(end->second), "another joint");
+  dependent.isDependent = true;
+  requireNoInitial(dependent.rate, dependent, "closes " + inQuotes(by));
+  initials_.erase(dependent.rate);
+  speeds_.erase(dependent.rate);
+  State& position = *positions_.find(coordinate);
+  if (const NamedValue* guess = initials_.find(coordinate)) {
+    position.initial = guess->nominal;
+    initials_.erase(coordinate);
+  }
+  dependents_.push_back(coordinate);
+}
+
+std::vector<std::string> Mechanism::coordinatesBetween(const std::string& from, const std::string& to) const {
+  const auto inwards = [this](std::string frame) {
+    std::vector<std::string> frames;
+    for (const Moved* moved = moved_.find(frame); moved != nullptr; moved = moved_.find(frame)) {
+      frames.push_back(frame);
+      frame = moved->from;
+    }
+    return frames;
+  };
+  std::vector<std::string> one = inwards(to), other = inwards(from);
+  while (!one.empty() && !other.empty() && one.back() == other.back()) {
+    one.pop_back();
+    other.pop_back();
+  }
+  std::array<std::vector<std::string>, 2> found;
+  for (std::size_t side = 0; side < 2; ++side)
+    for (const std::string& frame : side == 0 ? one : other)
+      if (const auto own = coordinatesOf_.find(moved_.find(frame)->element); own != coordinatesOf_.end())
+        std::ranges::copy_if(own->second, std::back_inserter(found[side]), [&](const std::string& name) {
+          const JointCoordinate& coordinate = *coordinates_.find(name);
+          return !coordinate.isDriven && !coordinate.isDependent && !isStruck(name) && !has(found[side], name);
+        });
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::max(found[0].size(), found[1].size()); ++i)
+    for (const auto& side : found)
+      if (i < side.size()) names.push_back(side[i]);
+  return names;
+}
+
+bool Mechanism::isFreeParameter(const std::string& quantity) const {
+  const bool isPosition = positions_.find(quantity) != nullptr;
+  return (!isPosition && !isSpeed(quantity) && ownStates_.find(quantity) == nullptr) || (isPosition && isClosed());
 }
 
 /// Visits an element that is being added.
@@ -378,6 +439,9 @@ class Mechanism::Checker final : public Fields {
   }
   Coordinate struckCoordinate(const Word& /*word*/, std::string& name, Start& start) override {
     const JointCoordinate& struck = found(name);
+    if (struck.isDependent)
+      refuse("the joint " + inQuotes(name) + " closes a loop, so that it cannot strike " + inQuotes(element_),
+             "an elastic end, `joint-stop`, or another joint that closes the loop");
     if (struck.isDriven)
       refuse("the joint " + inQuotes(name) + " is driven, so that it cannot strike " + inQuotes(element_),
              "a joint that moves freely");
@@ -389,6 +453,22 @@ class Mechanism::Checker final : public Fields {
     start.rate = m_.speeds_.find(struck.rate)->initial;
     start.isRising = m_.rangeOf(start.rate).upper() > 0;
     return struck.kind;
+  }
+  void dependentCoordinates(const Word& /*word*/, std::vector<std::string>& names, const Loop& loop) override {
+    const bool isChosen = names.empty();
+    if (isChosen) names = m_.coordinatesBetween(loop.from, loop.to);
+    const std::string needed = std::to_string(loop.rows) + (loop.rows == 1 ? " coordinate" : " coordinates");
+    if (isChosen ? names.size() < loop.rows : names.size() != loop.rows)
+      refuse("the loop " + inQuotes(element_) + " is closed by " + needed + ", but " +
+                 (isChosen ? "between its frames " + std::to_string(names.size()) + " may follow from others"
+                           : std::to_string(names.size()) + (names.size() == 1 ? " is named" : " are named")),
+             isChosen ? "a loop with so many joints that move freely" : needed);
+    names.resize(loop.rows);
+    for (std::string& name : names) {
+      found(name);
+      m_.depend(name, element_);
+    }
+    m_.loops_.push_back({element_, names, isChosen});
   }
   void timeFunction(const Word& word, Expression& number) override {
     if (!number.isSmooth())
@@ -485,7 +565,8 @@ const std::string* Mechanism::unitOfMeasured(const std::string& name) const {
   for (const auto* states : {&positions_, &speeds_, &ownStates_})
     if (const State* state = states->find(name)) return &state->unit;
   static const std::string radian = "rad", metre = "m", radianRate = "rad/s", metreRate = "m/s";
-  if (const JointCoordinate* coordinate = coordinateWith(name); coordinate != nullptr && coordinate->isDriven) {
+  if (const JointCoordinate* coordinate = coordinateWith(name);
+      coordinate != nullptr && (coordinate->isDriven || coordinate->isDependent)) {
     const bool turns = coordinate->kind == Coordinate::angle, isRate = coordinate->rate == name;
     return turns ? (isRate ? &radianRate : &radian) : isRate ? &metreRate : &metre;
   }
@@ -663,10 +744,11 @@ void Mechanism::checkMasses() const {
   std::map<std::string, bool> carries = framesThatMoveMass();
   for (const Moved& moved : moved_) {
     const auto own = coordinatesOf_.find(moved.element);
-    const bool isDriven = own != coordinatesOf_.end() && std::ranges::all_of(own->second, [&](const std::string& name) {
-                            return coordinates_.find(name)->isDriven;
-                          });
-    if (moved.isByJoint && !isDriven && !carries[moved.frame])
+    const bool follows = own != coordinatesOf_.end() && std::ranges::all_of(own->second, [&](const std::string& name) {
+                           const JointCoordinate& coordinate = *coordinates_.find(name);
+                           return coordinate.isDriven || coordinate.isDependent;
+                         });
+    if (moved.isByJoint && !follows && !isClosed() && !carries[moved.frame])
       throw UnfitPart(moved.element, "the joint " + inQuotes(moved.element) + " moves no mass",
                       "a mass at the frame " + inQuotes(moved.frame) + " or at one that it carries");
   }
@@ -725,7 +807,10 @@ std::vector<bool> Mechanism::startsWith(const std::vector<std::string>& freePara
 std::vector<std::string> Mechanism::outputQuantities() const {
   std::vector<std::string> names = stateNames();
   for (const JointCoordinate& coordinate : coordinates_)
-    if (coordinate.isDriven) names.insert(names.end(), {coordinate.name, coordinate.rate});
+    if (coordinate.isDriven)
+      names.insert(names.end(), {coordinate.name, coordinate.rate});
+    else if (coordinate.isDependent)
+      names.push_back(coordinate.rate);
   for (const Measured& measured : measured_) names.push_back(measured.name);
   const bool hasMass = !massFrames_.empty();
   for (const WholeQuantity& whole : wholeQuantities())  // of what is no machine none, of one without mass its energy

@@ -126,7 +126,8 @@ class Mechanism {
   struct JointCoordinate {
     std::string element, name, rate;
     Coordinate kind;
-    bool isDriven = false;
+    bool isDriven = false;     ///< it is no state
+    bool isDependent = false;  ///< its rate is no state: it closes a loop
   };
   const Named<JointCoordinate>& coordinates() const { return coordinates_; }
   /// The coordinate of this name, or with a rate of this name; null if there is none.
@@ -137,6 +138,20 @@ class Mechanism {
   /// Whether it strikes a rigid end of its travel, by its full name; and whether any does.
   bool isStruck(const std::string& coordinate) const { return struck_.contains(coordinate); }
   bool isStruck() const { return !struck_.empty(); }
+
+  /// The coordinates that close loops, in the order of the rows that they close.
+  const std::vector<std::string>& dependents() const { return dependents_; }
+  bool isClosed() const { return !dependents_.empty(); }
+  /// What closes a loop, and by which coordinates.
+  struct Closed {
+    std::string element;
+    std::vector<std::string> by;
+    bool isChosen;  ///< by structure, not by name
+  };
+  const std::vector<Closed>& loops() const { return loops_; }
+  /// Of these quantities, those that motion is recorded with as free parameters: what is no initial value, and, of what
+  /// closes on itself, initial positions, which those of dependent coordinates follow from.
+  bool isFreeParameter(const std::string& quantity) const;
 
   /// The name of a speed's acceleration: hinge.rate, hinge.acceleration; sleeve.angle_rate, sleeve.angle_acceleration;
   /// ball.rate.x, ball.acceleration.x; any other NAME, NAME_acceleration.
@@ -210,6 +225,11 @@ class Mechanism {
   void addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved = false);
   void addSignal(Signal signal, Expression& expression);
   void drive(const std::string& coordinate, const std::string& by);
+  void depend(const std::string& coordinate, const std::string& by);
+  /// A driven or dependent one starts as what moves it says.
+  void requireNoInitial(const std::string& number, const JointCoordinate& of, const std::string& by) const;
+  /// Coordinates of the joints between two frames, those nearest to them first, that may depend on others.
+  std::vector<std::string> coordinatesBetween(const std::string& from, const std::string& to) const;
   /// What moves with a frame: itself, or one that it carries, also by coordinates that follow one of the element that
   /// moves it.
   std::map<std::string, bool> framesThatMoveMass() const;
@@ -240,6 +260,8 @@ class Mechanism {
   std::unordered_map<std::string, std::string> coordinateOfRate_;
   std::unordered_map<std::string, std::vector<std::string>> coordinatesOf_;  // elements
   std::vector<Following> followings_;
+  std::vector<std::string> dependents_;  // coordinates
+  std::vector<Closed> loops_;
   std::unordered_map<std::string, std::string> struck_;  // coordinates that strike a rigid end: its element
   Named<Measured> measured_;
   std::vector<Length> lengths_;

@@ -49,6 +49,9 @@ class Listener final : public Fields {
     required(word);
     return kind_;
   }
+  void dependentCoordinates(const Word& word, std::vector<std::string>& /*names*/, const Loop& /*loop*/) override {
+    key(word);
+  }
   void table(const Word& file, const Word& column, Coordinate /*kind*/, TimeTable& /*table*/) override {
     key(file);
     key(column);

@@ -18,6 +18,8 @@ std::vector<Described> elementTypes() {
   types.emplace_back(Free{});
   types.emplace_back(Weld{});
   types.emplace_back(Link{});
+  types.emplace_back(Closure{});
+  types.emplace_back(RodClosure{});
   types.emplace_back(Mass{});
   types.emplace_back(Spring{});
   types.emplace_back(JointSpring{});

@@ -3,6 +3,7 @@
 
 #include "mechanics/element_types.hpp"
 #include "mechanics/elements/bushing.hpp"
+#include "mechanics/elements/closure.hpp"
 #include "mechanics/elements/coupling.hpp"
 #include "mechanics/elements/cylindrical.hpp"
 #include "mechanics/elements/distance.hpp"

@@ -6,6 +6,11 @@
 // (articulated_bodies.hpp), or as wholes, cut at the joints for enclosures (sparse_equations.hpp). With constraints, M
 // is bordered by their rows. With gears, what a joint moves is more than what hangs on it, so that M takes the place of
 // the way joint by joint. No path depends on a scalar's value.
+//
+// Of a machine that closes on itself some speeds depend on the others: with the constraints' rows g(q) = 0 and their
+// Jacobian J = (J_i, J_d), u_d = −J_d⁻¹ (J_i u_i + g_t). Positions are states all of them, and those of dependent
+// speeds are pulled to where the loop is closed, q̇_d = u_d − α J_d⁻¹ g, so that g decays as e^(−α t): on the loop the
+// pull is exactly zero.
 #pragma once
 
 #include <functional>
@@ -14,6 +19,7 @@
 
 #include "mechanics/element.hpp"
 #include "mechanics/equations/formulation.hpp"
+#include "scalars/algebra/linear_system.hpp"
 
 namespace gamut {
 
@@ -39,6 +45,21 @@ class System {
       : speeds_(std::move(speeds)), chain_(chain), base_(base), gravity_(std::move(gravity)) {
     if (base.origin) throw std::invalid_argument("the inertial frame " + base.name + " must not be moved");
   }
+
+  /// The last of the speeds, as many as the constraints have rows, depend on the others.
+  void depend(std::size_t dependents) { dependents_ = dependents; }
+  std::size_t dependents() const { return dependents_; }
+  /// At the present positions and independent rates: sets the rates of dependent speeds.
+  void close();
+  /// g, and J_d, of which every column is what a unit of a dependent speed makes of the rows, at the present positions;
+  /// J_d⁻¹ g: by what dependent positions are off, to first order.
+  std::vector<S> residuals() const {
+    return ofConstraints([](const Constraint<S>& constraint) { return constraint.residuals(); });
+  }
+  LinearSystem<S> dependentRows();
+  std::vector<S> opening();
+  /// α [1/s].
+  static constexpr double pull = 20;
 
   int degreesOfFreedom() const { return static_cast<int>(speeds_.size()); }
   bool isConstrained() const { return !chain_.constraints().empty(); }
@@ -135,6 +156,15 @@ class System {
   /// With the multipliers of the constraints: M u̇ − Gᵀ λ = Q, G u̇ = −g̈(u̇ = 0) − 2 σ ġ − σ² g.
   std::vector<S> constrained();
 
+  /// The same where all rows have a dependent speed: u̇ = T u̇_i + γ, with J T = 0, and Tᵀ M T u̇_i = Tᵀ (Q − M γ).
+  std::vector<S> projected();
+
+  /// G u̇ of all rows for the j-th unit acceleration.
+  std::vector<S> unitRows(std::size_t j);
+  std::vector<S> rowsAt(MotionLevel level) {
+    return ofConstraints([level](Constraint<S>& constraint) { return constraint.accelerations(level); });
+  }
+
   std::vector<S> eliminated();
 
   /// Any u̇ is as good a start as 0. Where a row moves with u̇_j by a number that is not zero, and with no later
@@ -148,6 +178,7 @@ class System {
   Frame<S>& base_;
   Vector3<S> gravity_;
   std::function<Vector3<S>()> shaking_;
+  std::size_t dependents_ = 0;
 };
 
 GAMUT_COMPILED_ELSEWHERE(System)

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 #include "mechanics/equations/articulated_bodies.hpp"
 #include "mechanics/equations/least_constraint.hpp"
-#include "scalars/algebra/linear_system.hpp"
 
 namespace gamut {
 
@@ -50,7 +50,7 @@ Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> System<S>::inertiaMatrix() {
     moveUnit(static_cast<std::size_t>(j));
     doForce(ForceKind::inertia);
     const std::vector<S> column = generalisedForces();
-    for (int i = j; i < f; ++i) m(i, j) = m(j, i) = -column[static_cast<std::size_t>(i)];
+    for (int i = j; i < f; ++i) m(i, j) = m(j, i) = -column[i];
   }
   return m;
 }
@@ -61,7 +61,9 @@ std::vector<S> System<S>::accelerations(Formulation formulation) {
   setAccelerations(zeros());
   doMotion();
   if (speeds_.empty()) return {};
-  const std::vector<S> result = !chain_.constraints().empty()        ? constrained()
+  const std::vector<S> result = isConstrained() && dependents_ > 0 && formulation == Formulation::articulated
+                                    ? projected()
+                                : isConstrained()                    ? constrained()
                                 : degreesOfFreedom() <= 2            ? eliminated()
                                 : formulation == Formulation::sparse ? solved()
                                 : chain_.hasGears()                  ? solvedByInertia()
@@ -147,7 +149,7 @@ std::vector<S> System<S>::resisted(const std::vector<S>& accelerations) {
   const std::vector<S> rows = bodyAccelerations();
   std::vector<S> found;
   for (const InertiaWeight<S>& weight : weights)
-    for (const int row : {weight.k, weight.l}) found.push_back(rows[static_cast<std::size_t>(row)]);
+    for (const int row : {weight.k, weight.l}) found.push_back(rows[row]);
   return found;
 }
 
@@ -158,7 +160,7 @@ std::vector<std::vector<S>> System<S>::unitColumns() {
   for (std::size_t j = 0; j < speeds_.size(); ++j) {
     moveUnit(j);
     columns.push_back(bodyAccelerations());
-    const auto isMoved = [&](int row) { return !isKnownZero(columns[j][static_cast<std::size_t>(row)]); };
+    const auto isMoved = [&](int row) { return !isKnownZero(columns[j][row]); };
     if (std::none_of(weights.begin(), weights.end(), [&](const auto& w) { return isMoved(w.k) || isMoved(w.l); }))
       throw std::domain_error("the variable " + speeds_[j].get().name + " moves no mass");
   }
@@ -225,6 +227,91 @@ std::vector<S> System<S>::solvedByInertia() {
 }
 
 template <class S>
+std::vector<S> System<S>::unitRows(std::size_t j) {
+  moveUnit(j);
+  return rowsAt(MotionLevel::acceleration);
+}
+
+template <class S>
+LinearSystem<S> System<S>::dependentRows() {
+  const std::size_t m = dependents_, first = speeds_.size() - m;
+  std::vector<S> entries(m * m, S(0.0));
+  for (std::size_t j = 0; j < m; ++j) {
+    const std::vector<S> column = unitRows(first + j);
+    for (std::size_t i = 0; i < m; ++i) entries[i * m + j] = column[i];
+  }
+  return LinearSystem<S>(MatrixKind::general, static_cast<int>(m), std::move(entries));
+}
+
+template <class S>
+void System<S>::close() {
+  if (dependents_ == 0) return;
+  const auto dependent = std::span(speeds_).last(dependents_);
+  for (Speed<S>& speed : dependent) speed.rate = S(0.0);
+  setAccelerations(zeros());
+  doMotion();
+  std::vector<S> rates = ofConstraints([](Constraint<S>& constraint) { return constraint.rates(); });
+  for (S& rate : rates) rate = -rate;
+  dependentRows().solve(rates);
+  for (std::size_t i = 0; i < dependents_; ++i) dependent[i].get().rate = rates[i];
+  setAccelerations(zeros());
+}
+
+template <class S>
+std::vector<S> System<S>::opening() {
+  std::vector<S> rows = residuals();
+  dependentRows().solve(rows);
+  return rows;
+}
+
+template <class S>
+std::vector<S> System<S>::projected() {
+  const std::size_t n = speeds_.size(), m = dependents_, f = n - m;
+  for (Constraint<S>* constraint : chain_.constraints()) constraint->setMultipliers({});
+  setAccelerations(zeros());
+  doMotion();
+  std::vector<S> gamma = rowsAt(MotionLevel::all);
+  const LinearSystem<S> rows = dependentRows();
+  const auto dependentPart = [&](std::vector<S> right) {  // of what solves J_d x = −right
+    for (S& row : right) row = -row;
+    rows.solve(right);
+    return right;
+  };
+  gamma = dependentPart(std::move(gamma));
+  gamma.insert(gamma.begin(), f, S(0.0));
+  std::vector<std::vector<S>> tangents;
+  for (std::size_t j = 0; j < f; ++j) {
+    std::vector<S> tangent = dependentPart(unitRows(j));
+    tangent.insert(tangent.begin(), f, S(0.0));
+    tangent[j] = S(1.0);
+    tangents.push_back(std::move(tangent));
+  }
+  setAccelerations(gamma);
+  doMotion();
+  doForce();
+  const std::vector<S> forces = generalisedForces();  // Q − M γ
+  const auto along = [&](const std::vector<S>& tangent, const std::vector<S>& force) {
+    S sum(0.0);
+    for (std::size_t i = 0; i < n; ++i) sum = sum + tangent[i] * force[i];
+    return sum;
+  };
+  std::vector<S> entries(f * f, S(0.0)), result;
+  for (std::size_t j = 0; j < f; ++j) {
+    setAccelerations(tangents[j]);
+    doMotion(MotionLevel::acceleration);
+    doForce(ForceKind::inertia);
+    const std::vector<S> inertia = generalisedForces();
+    for (std::size_t i = j; i < f; ++i) entries[i * f + j] = entries[j * f + i] = -along(tangents[i], inertia);
+    result.push_back(along(tangents[j], forces));
+  }
+  LinearSystem<S>(MatrixKind::positiveDefinite, static_cast<int>(f), std::move(entries)).solve(result);
+  std::vector<S> all = gamma;
+  for (std::size_t j = 0; j < f; ++j)
+    for (std::size_t i = 0; i < n; ++i) all[i] = all[i] + tangents[j][i] * result[j];
+  return all;
+}
+
+template <class S>
 std::vector<S> System<S>::constrained() {
   for (Constraint<S>* constraint : chain_.constraints()) constraint->setMultipliers({});
   std::vector<S> right = residual();
@@ -241,14 +328,12 @@ std::vector<S> System<S>::constrained() {
   const int f = degreesOfFreedom(), size = static_cast<int>(right.size());
   const auto m = inertiaMatrix();
   std::vector<S> entries(static_cast<std::size_t>(size * size), S(0.0));
-  const auto entry = [&](int i, int j) -> S& { return entries[static_cast<std::size_t>(i * size + j)]; };
+  const auto entry = [&](int i, int j) -> S& { return entries[i * size + j]; };
   for (int j = 0; j < f; ++j) {
     for (int i = 0; i < f; ++i) entry(i, j) = m(i, j);
-    moveUnit(static_cast<std::size_t>(j));
-    const std::vector<S> column =
-        ofConstraints([](Constraint<S>& constraint) { return constraint.accelerations(MotionLevel::acceleration); });
+    const std::vector<S> column = unitRows(static_cast<std::size_t>(j));
     for (int i = f; i < size; ++i) {
-      entry(i, j) = column[static_cast<std::size_t>(i - f)];
+      entry(i, j) = column[i - f];
       entry(j, i) = -entry(i, j);
     }
   }

@@ -61,8 +61,12 @@ class DerivativeAnalysis final : public AnalysisOf<DerivativeAnalysis, Derivativ
   }
   bool isAsked() const override { return isAsked_; }
   std::optional<Refusal> refusal(const Study& study) const override {
-    if (!isAsked_ || study.analysis == Study::Analysis::dynamics) return {};
-    return Refusal{"derivatives", "derivatives are enclosed in dynamics alone", "no such key"};
+    if (!isAsked_) return {};
+    if (study.analysis != Study::Analysis::dynamics)
+      return Refusal{"derivatives", "derivatives are enclosed in dynamics alone", "no such key"};
+    if (study.mechanism.isClosed())  // where it starts follows from the quantities by more than what is recorded
+      return Refusal{"derivatives", "derivatives are not enclosed of what closes on itself", "no such key"};
+    return {};
   }
 
   void find(Run& run, const Results& /*before*/, DerivativeResult& result) const {

@@ -430,6 +430,18 @@ class MechanismReader {
       reader_.guarded(node, [&] { kind = reader_.mechanism_.coordinate(name, section_.text("name")).kind; });
       return kind;
     }
+    void dependentCoordinates(const Word& word, std::vector<std::string>& names, const Loop& /*loop*/) override {
+      const toml::node* node = section_.find(word.key);
+      if (node == nullptr) return;
+      const std::string what = section_.nameOf(word.key);
+      const TomlSource& source = section_.source();
+      if (!node->is_array()) source.fail(*node, what + " is no list", "a list of coordinates, such as [\"rocker\"]");
+      for (const toml::node& name : *node->as_array()) {
+        names.push_back(source.asText(name, what));
+        reader_.guarded(name, [&] { reader_.mechanism_.coordinate(names.back(), section_.text("name")); });
+      }
+      if (names.empty()) source.fail(*node, what + " is empty", "names of coordinates, or no list");
+    }
     void table(const Word& file, const Word& column, Coordinate kind, TimeTable& table) override {
       const toml::node& node = *given(section_, file);
       const toml::node& name = *given(section_, column);

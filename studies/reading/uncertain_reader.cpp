@@ -139,12 +139,18 @@ class UncertainReader {
     if (const std::vector<std::string> names = namesInFormulaOf(quantity); !names.empty())
       source_.fail(node, fmt::format("'{}' follows from a formula", quantity),
                    fmt::format("one of the quantities in it: {}", fmt::join(names, ", ")));
-    if (const Mechanism::JointCoordinate* coordinate = mechanism.coordinateWith(quantity))
+    if (const Mechanism::JointCoordinate* coordinate = mechanism.coordinateWith(quantity)) {
       if (coordinate->isDriven)
         source_.fail(
             node,
             fmt::format("the joint '{}' is driven, so that '{}' follows from time", coordinate->element, quantity),
             "a parameter in the drive's position");
+      if (coordinate->isDependent)
+        source_.fail(node,
+                     fmt::format("the joint '{}' closes a loop, so that '{}' follows from the other joints",
+                                 coordinate->element, quantity),
+                     "a length, or the initial value of another joint");
+    }
     if (!mechanism.mayBeUncertain(quantity))
       source_.fail(node, fmt::format("unknown quantity '{}'", quantity),
                    quantityExpected(quantity, mechanism.quantities()));

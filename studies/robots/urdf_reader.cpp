@@ -206,7 +206,7 @@ class UrdfReader {
         source_.fail(joint.line,
                      fmt::format("the link {} is the child of two joints, {} and {}", inQuotes(joint.child),
                                  inQuotes(other.name), inQuotes(joint.name)),
-                     "a tree, in which each link has one parent (closed loops are not there yet)");
+                     "a tree, in which each link has one parent (a `closure` in the study closes loops)");
     joint.origin = readPlace(element);
     if (const Tag* axis = source_.child(element, "axis")) readAxis(*axis, joint);
     if (const Tag* limit = source_.child(element, "limit")) joint.limits = readLimits(*limit);
@@ -346,7 +346,7 @@ class UrdfReader {
         source_.fail(joint.line,
                      fmt::format("the links {} and {} carry one another in a circle, with joints such as {}",
                                  inQuotes(joint.parent), inQuotes(joint.child), inQuotes(joint.name)),
-                     "a tree (closed loops are not there yet)");
+                     "a tree (a `closure` in the study closes loops)");
     robot_.links = std::move(links);
     robot_.joints = std::move(joints);
   }

@@ -43,6 +43,7 @@ FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool
   }
   flow.varying = machine.varying;
   flow.rests = machine.equations().rests;
+  flow.remainders = machine.remainders;
   flow.dropsUnneeded = true;
   return flow;
 }

@@ -111,6 +111,7 @@ class Finder {
     Trial trial{1, {}};
     std::string why;
     try {
+      box = machine_.closed(std::move(box));
       if (study_.analysis == Study::Analysis::kinematics) {
         models =
             modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled);
@@ -121,6 +122,8 @@ class Finder {
       }
     } catch (const std::invalid_argument& error) {  // no such box makes sense
       return {0, error.what()};
+    } catch (const StudyError& error) {  // nor closes all loops
+      return {0, error.problem()};
     }
     if (!models) return {0, why.empty() ? "the enclosure was not found" : why};
     RequirementOptions own;

@@ -21,9 +21,9 @@ namespace {
 
 /// A rod without mass between the origins of two frames: g = ½ (|x|² − l²).
 template <class S>
-class Rod final : public Constraint<S> {
+class HeldRod final : public Constraint<S> {
  public:
-  Rod(Frame<S>& from, Frame<S>& to, S length, S stabilisation = S(0.0))
+  HeldRod(Frame<S>& from, Frame<S>& to, S length, S stabilisation = S(0.0))
       : Constraint<S>(std::move(stabilisation)), from_(from), to_(to), length_(std::move(length)) {}
 
   std::vector<S> residuals() const override {
@@ -63,7 +63,7 @@ struct SlidingPendulum {
   Variable<S> y, z;
   PrismaticJoint<S> across{base, carried, y, axisY}, down{carried, tip, z, axisZ};
   MassElement<S> bob{tip, S(1.5)};
-  Rod<S> rod;
+  HeldRod<S> rod;
   Chain<S> chain;
   std::array<Variable<S>*, 2> variables{&y, &z};
   System<S> system{{y, z}, chain, base, {S(0.0), S(0.0), S(-10.0)}};
@@ -85,7 +85,7 @@ struct FourBar {
   RevoluteJoint<S> hinge2{aside, turned2, other, axisX};
   RigidLink<S> arm2{turned2, end2, {S(0.0), S(0.0), S(-0.75)}};
   MassElement<S> body2{end2, S(0.75), {S(0.0), S(0.1), S(0.3)}};
-  Rod<S> rod;
+  HeldRod<S> rod;
   Chain<S> chain;
   std::array<Variable<S>*, 2> variables{&one, &other};
   System<S> system{{one, other}, chain, base, {S(0.0), S(0.0), S(-10.0)}};

@@ -996,8 +996,8 @@ constexpr BadStudy badStudies[] = {
      "s.toml:12:8: unknown frame 'elsewhere'; expected 'inertial' ('hinge' must come after the element that "
      "defines its frame)"},
     {"to = \"tip\"", "to = \"K1\"",
-     "s.toml:16:1: the frame 'K1' is defined twice; expected a new frame for 'rod' (closed loops are not there yet: "
-     "frames form a tree, which springs and bushings alone can close)"},
+     "s.toml:16:1: the frame 'K1' is defined twice; expected a new frame for 'rod' (frames form a tree, and a "
+     "`closure` or a `rod` closes loops between two)"},
     {"angle = \"30 deg\"", "angle = \"30 grad\"",
      "s.toml:15:21: mechanism.element.initial.angle: unknown unit 'grad' in '30 grad'; "
      "expected one of rad, deg, °, rpm, m, in, ft, kg, g, t, lb, s, min, h, Hz, N, lbf, J, W, Pa, bar, V, A, Ohm, Ω, "

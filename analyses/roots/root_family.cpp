@@ -1,0 +1,213 @@
+// The ranges of φ(0) and of the Jacobian by polynomials in the parameters, on parts of their box where the whole is too
+// wide.
+#include "analyses/roots/root_family.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "analyses/flow/flow.hpp"
+#include "scalars/program/differentiation.hpp"
+
+namespace gamut {
+namespace {
+
+class Prover {
+ public:
+  Prover(const Program& newton, const Box& parameters)
+      : newton_(newton),
+        slopes_(forwardDifferentiated(newton)),
+        whole_(parameters),
+        n_(newton.states()),
+        radii_(n_, 0.0) {}
+
+  /// Roots of neighbouring parts are of one family where each lies in what the other's is alone in: else once more,
+  /// with boxes of the widest there was.
+  RootFamily prove() {
+    constexpr int rounds = 4;
+    for (int round = 0; round < rounds; ++round) {
+      parts_.clear();
+      if (std::optional<Box> open = proveParts()) return {{}, {}, std::move(open)};
+      refine();
+      const RootFamily family = together();
+      bool all = true;
+      for (int k = 0; k < n_; ++k) all = all && isSubset(family.remainder[k], family.alone[k]);
+      if (all) return family;
+    }
+    return {{}, {}, whole_};
+  }
+
+ private:
+  static constexpr int mostHalvings = 256;
+
+  struct Part {
+    Box parameters, image, delta;
+    double largest() const {
+      double largest = 0;
+      for (const Interval& each : image) largest = std::max(largest, magnitude(each));
+      return largest;
+    }
+  };
+
+  /// One that is not proved; nothing where all are.
+  std::optional<Box> proveParts() {
+    int halvings = 0;
+    std::vector<Box> open{whole_};
+    while (!open.empty()) {
+      const Box part = std::move(open.back());
+      open.pop_back();
+      if (std::optional<Part> proved = prove(part)) {
+        parts_.push_back(std::move(*proved));
+        continue;
+      }
+      const int widest = widestOf(part);
+      if (widest < 0 || ++halvings > mostHalvings) return part;
+      for (const Box& half : halvesOf(part, widest)) open.push_back(half);
+    }
+    return {};
+  }
+
+  /// Halves parts of which much is left open, while that costs little.
+  void refine() {
+    constexpr int most = 24;
+    constexpr double little = 1e-9;  // rad, m
+    for (int i = 0; i < most; ++i) {
+      const auto loosest = std::ranges::max_element(parts_, {}, &Part::largest);
+      const int widest = widestOf(loosest->parameters);
+      if (widest < 0 || loosest->largest() <= little) return;
+      const std::array<Box, 2> halves = halvesOf(loosest->parameters, widest);
+      std::optional<Part> lower = prove(halves[0]), upper = prove(halves[1]);
+      if (!lower || !upper) return;
+      *loosest = std::move(*lower);
+      parts_.push_back(std::move(*upper));
+    }
+  }
+
+  RootFamily together() const {
+    RootFamily family{parts_.front().image, parts_.front().delta, {}};
+    for (const Part& part : parts_)
+      for (int k = 0; k < n_; ++k) {
+        family.remainder[k] = hull(family.remainder[k], part.image[k]);
+        family.alone[k] = intersection(family.alone[k], part.delta[k]);
+      }
+    return family;
+  }
+
+  static std::array<Box, 2> halvesOf(const Box& part, int component) {
+    std::array<Box, 2> both{part, part};
+    const auto [lower, upper] = bisect(part[component]);
+    both[0][component] = lower;
+    both[1][component] = upper;
+    return both;
+  }
+
+  /// Of what is wide, as a part of what it was.
+  int widestOf(const Box& part) const {
+    int widest = -1;
+    double most = 0x1p-8;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const double share = width(part[i]) / width(whole_[i]);
+      if (share > most) {
+        most = share;
+        widest = static_cast<int>(i);
+      }
+    }
+    return widest;
+  }
+
+  /// The degree up to which so many symbols have some 500 monomials.
+  static int degreeOf(const Box& part) {
+    constexpr double most = 500;
+    constexpr int highest = 10;
+    const auto wide = std::ranges::count_if(part, [](const Interval& x) { return !isThin(x); });
+    int degree = 1;
+    for (double count = 1.0 + static_cast<double>(wide); degree < highest; ++degree) {
+      count *= static_cast<double>(wide + degree + 1) / (degree + 1);
+      if (count > most) break;
+    }
+    return degree;
+  }
+
+  static Box joined(Box delta, const Box& part) {
+    delta.insert(delta.end(), part.begin(), part.end());
+    return delta;
+  }
+
+  /// ∂φ/∂δ row by row, for all δ of this box.
+  Box slopesOn(const Box& delta, const Box& part) const {
+    const Box all = encloseImage(slopes_, 0.0, joined(delta, part))[0];
+    return {all.begin() + n_, all.end()};
+  }
+
+  /// φ(δ) of all δ of a box that holds 0, by the mean value theorem.
+  Box imageOf(const Box& at0, const Box& slopes, const Box& delta) const {
+    Box image = at0;
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < n_; ++j) image[i] += slopes[i * n_ + j] * delta[j];
+    return image;
+  }
+
+  static bool isKnown(const Box& box) {
+    return std::ranges::all_of(box, [](const Interval& each) { return isBounded(each) && !isEmpty(each); });
+  }
+
+  /// Nothing where it is not proved.
+  std::optional<Part> prove(const Box& part) {
+    const Box at0 = encloseImage(newton_, 0.0, joined(Box(n_, Interval(0.0)), part), {}, degreeOf(part))[0];
+    if (!isKnown(at0)) return {};
+    std::vector<double> r = radii_;
+    const auto widen = [&](const Box& image) {  // what is 0 gets room to map into too
+      double largest = 0;
+      for (const Interval& each : image) largest = std::max(largest, magnitude(each));
+      for (int k = 0; k < n_; ++k) r[k] = std::max({r[k], 2 * magnitude(image[k]), 0x1p-10 * largest, 0x1p-1000});
+    };
+    widen(at0);
+    constexpr int tries = 12;
+    for (int i = 0; i < tries; ++i) {
+      Box delta;
+      for (const double radius : r) delta.emplace_back(-radius, radius);
+      const Box slopes = slopesOn(delta, part);
+      if (!isKnown(slopes)) return {};
+      const Box image = imageOf(at0, slopes, delta);
+      if (mapsInside(image, r) && contracts(slopes, r)) {
+        radii_ = r;
+        // Once more, of the image: φ has no slope where δ is 0.
+        Box around0;
+        for (const Interval& each : image) around0.push_back(hull(each, Interval(0.0)));
+        return Part{part, imageOf(at0, slopesOn(around0, part), around0), delta};
+      }
+      if (!isKnown(image)) return {};
+      widen(image);
+    }
+    return {};
+  }
+
+  bool mapsInside(const Box& image, const std::vector<double>& r) const {
+    for (int k = 0; k < n_; ++k)
+      if (!(magnitude(image[k]) < r[k])) return false;
+    return true;
+  }
+
+  bool contracts(const Box& slopes, const std::vector<double>& r) const {
+    for (int i = 0; i < n_; ++i) {
+      Interval sum(0.0);
+      for (int j = 0; j < n_; ++j) sum += Interval(magnitude(slopes[i * n_ + j])) * Interval(r[j]);
+      if (!(sum.upper() < r[i])) return false;
+    }
+    return true;
+  }
+
+  const Program& newton_;
+  Program slopes_;
+  Box whole_;
+  int n_;
+  std::vector<double> radii_;  // of the box about 0, the widest so far
+  std::vector<Part> parts_;
+};
+
+}  // namespace
+
+RootFamily proveRoots(const Program& newton, const Box& parameters) { return Prover(newton, parameters).prove(); }
+
+}  // namespace gamut

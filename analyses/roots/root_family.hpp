@@ -1,0 +1,25 @@
+// Roots of equations that depend on parameters, for all parameters in a box at once: proved to be there, and alone.
+//
+// Newton's map about a centre c(p), φ(δ; p) = δ − J(c)⁻¹ g(c + δ), has the roots c + δ as its fixed points. Where it
+// maps a box D about 0 into its interior for every p, there is one (L. E. J. Brouwer, 1911); where besides Σ_j
+// |∂φ_i/∂δ_j| r_j < r_i for the half-widths r of D, φ contracts in the norm that r weighs, and there is no other (R.
+// Krawczyk, Computing 4, 1969, about a centre that follows the parameters).
+#pragma once
+
+#include <optional>
+
+#include "scalars/interval.hpp"
+#include "scalars/program/program.hpp"
+
+namespace gamut {
+
+struct RootFamily {
+  Box remainder;            ///< δ of all roots; empty unless they are proved for the whole box
+  Box alone;                ///< in which there is no other for any of the parameters
+  std::optional<Box> open;  ///< a part of the box for which nothing is proved
+};
+
+/// `newton`: φ, whose n states are δ and whose n outputs its image, with the parameters p.
+RootFamily proveRoots(const Program& newton, const Box& parameters);
+
+}  // namespace gamut

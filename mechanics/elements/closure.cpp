@@ -1,0 +1,123 @@
+// Rows of Closing: a ball's three directions, or those across an axis, or the axis itself; and axes at right angles.
+#include "mechanics/elements/closure.hpp"
+
+#include <algorithm>
+
+#include "mechanics/assembler.hpp"
+#include "mechanics/closing.hpp"
+
+namespace gamut {
+namespace {
+
+/// What a closure holds: directions along which its points stay together, `along` and `across` its axis, and whether
+/// the axes stay parallel.
+struct Held {
+  const char* as;
+  bool along, across, parallel;
+
+  std::size_t rows() const { return (along ? 1U : 0U) + (across ? 2U : 0U) + (parallel ? 2U : 0U); }
+};
+
+constexpr std::array held = {Held{"ball", true, true, false}, Held{"hinge", true, true, true},
+                             Held{"pin", false, true, false}, Held{"cylinder", false, true, true},
+                             Held{"plane", true, false, false}};
+
+const Held& heldAs(const std::string& as) { return *std::ranges::find(held, as, &Held::as); }
+
+/// Two unit vectors that are perpendicular to a unit vector, and to each other.
+template <class S>
+std::array<Vector3<S>, 2> across(const Axis& axis) {
+  if (axis.isAligned()) {
+    std::array<Vector3<S>, 2> unit;
+    for (int i = 0; i < 2; ++i) {
+      unit[i] = zeroVector<S>();
+      unit[i][(axis.index() + 1 + i) % 3] = S(1.0);
+    }
+    return unit;
+  }
+  const auto direction = axis.direction();
+  const auto least =
+      std::ranges::min_element(direction, {}, [](double c) { return c < 0 ? -c : c; }) - direction.begin();
+  Vector3<S> other = zeroVector<S>();
+  other[least] = S(1.0);
+  using std::sqrt;
+  const Vector3<S> u = axis.unit<S>(), first = u.cross(other) / S(sqrt(S(S(1.0) - square(u[least]))));
+  return {first, u.cross(first)};
+}
+
+void describeEnds(Fields& f, std::string& from, std::string& to, ExpressionVector& fromPoint,
+                  ExpressionVector& toPoint) {
+  f.frame({"from", "", "a frame"}, from);
+  f.otherFrame({"to", "", "the other frame"}, to, from);
+  f.vector({"from_point", "m", "a point in `from`"}, fromPoint);
+  f.vector({"to_point", "m", "a point in `to`"}, toPoint);
+}
+
+constexpr const char* dependentMeaning =
+    "a list of the coordinates that follow from the others, such as `[\"coupler\", \"rocker\"]`: those of the joints "
+    "nearest to it unless given. Their initial values are where the closed position is looked for";
+
+}  // namespace
+
+void Closure::describe(Fields& f) {
+  describeEnds(f, from, to, fromPoint, toPoint);
+  std::vector<std::string> words;
+  for (const Held& each : held) words.emplace_back(each.as);
+  f.choice(
+      {"as", "",
+       "`ball`: the points stay together; `hinge`: the axes too; `pin`: the point of `to` stays on the axis "
+       "through that of `from`, as in planar loops a hinge is; `cylinder`: and the axes stay together; `plane`: it "
+       "stays in the plane across the axis. `ball` unless given"},
+      as, words);
+  f.axis({"axis", "", "in `from`; `\"z\"` unless given"}, axis);
+  f.axis({"to_axis", "", "the same axis in `to`; `\"z\"` unless given"}, toAxis);
+  f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, heldAs(as).rows()});
+  for (const char* component : components)
+    f.measureSolved({std::string("force.") + component, "N", "what it does to `to`, in inertial axes"});
+  for (const char* component : components)
+    f.measureSolved({std::string("moment.") + component, "N m", "the same about the point of `to`"});
+}
+
+template <class S>
+void Closure::assemble(Assembler<S>& a) const {
+  const Held& holds = heldAs(as);
+  const std::array<Vector3<S>, 2> besides = across<S>(axis);
+  std::vector<Vector3<S>> directions;
+  if (holds.along) directions.push_back(axis.unit<S>());
+  if (holds.across) directions.insert(directions.end(), besides.begin(), besides.end());
+  std::vector<typename Closing<S>::RightAngle> rightAngles;
+  if (holds.parallel)
+    for (const Vector3<S>& each : besides) rightAngles.emplace_back(each, toAxis.unit<S>());
+  auto& closing =
+      a.template add<Closing<S>>(CarriedPoint<S>{&a.frame(from), a.vector(fromPoint)},
+                                 CarriedPoint<S>{&a.frame(to), a.vector(toPoint)}, directions, rightAngles, axis);
+  for (int i = 0; i < 3; ++i) {
+    a.measureSolved(std::string("force.") + components[i], [&closing, i] { return S(closing.force()[i]); });
+    a.measureSolved(std::string("moment.") + components[i], [&closing, i] { return S(closing.moment()[i]); });
+  }
+}
+
+GAMUT_ASSEMBLE(Closure)
+
+void RodClosure::describe(Fields& f) {
+  describeEnds(f, from, to, fromPoint, toPoint);
+  f.number({"length", "m", "the distance of the points", true}, length);
+  f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, 1});
+  f.measureSolved({"force", "N", "by which it pushes its ends apart"});
+}
+
+std::vector<Fault> RodClosure::faults(const RangeOf& rangeOf) const {
+  if (rangeOf(length).lower() > 0) return {};
+  return {{"length", "the length of '" + name + "' is not above 0 m", "a length above 0 m", true}};
+}
+
+template <class S>
+void RodClosure::assemble(Assembler<S>& a) const {
+  const auto& rod = a.template add<Rod<S>>(CarriedPoint<S>{&a.frame(from), a.vector(fromPoint)},
+                                           CarriedPoint<S>{&a.frame(to), a.vector(toPoint)}, a.number(length));
+  a.measureSolved("force", [&rod] { return rod.push(); });
+}
+
+GAMUT_ASSEMBLE(RodClosure)
+
+}  // namespace gamut

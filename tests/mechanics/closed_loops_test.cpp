@@ -1,0 +1,89 @@
+// Machines that close on themselves, against the same by hand.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "mechanics/assembly.hpp"
+#include "mechanics/description/refusal.hpp"
+#include "mechanics/model.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "tests/mechanics/four_bar.hpp"
+#include "tests/scalars/high_precision.hpp"
+
+namespace gamut {
+namespace {
+
+using Number = testing::HighPrecision;
+
+Closure pinned() {
+  Closure closure;
+  closure.name = "C";
+  closure.from = "C2";
+  closure.to = "C1";
+  closure.as = "pin";
+  return closure;
+}
+
+testing::FourBarMotion<Number> truth(const Number& angle, const Number& rate) {
+  return testing::fourBarByHand<Number>(angle, rate, {Number("0.3"), Number("0.8"), Number("0.6"), Number("0.9")},
+                                        [](const char* number) { return Number(number); });
+}
+
+/// Positions are found, rates follow, and accelerations are the same in both formulations, which have little in common.
+TEST(ClosedLoops, MoveAsAFourBarByHandDoes) {
+  const Mechanism m = testing::fourBar(pinned());
+  EXPECT_EQ(m.stateNames(), (std::vector<std::string>{"A.angle", "B.angle", "D.angle", "A.rate"}));
+  EXPECT_EQ(m.dependents(), (std::vector<std::string>{"B.angle", "D.angle"}));
+  Assembly<double> assembly(m);
+  std::vector<double> x = assembly.initialState();
+  for (const double angle : {1.0, 1.5, 2.5, 4.0, 6.0, 0.0}) {
+    for (const double rate : {4.0, 0.0, -9.0}) {
+      const auto by = truth(angle, rate);
+      const Number cx = by.closing[0] - Number("0.3") * cos(Number(angle)),
+                   cy = by.closing[1] - Number("0.3") * sin(Number(angle));
+      x = {angle, static_cast<double>(Number(atan2(cy, cx) - angle)),
+           static_cast<double>(Number(atan2(by.closing[1], Number(by.closing[0] - Number("0.9"))))), rate};
+      for (const Formulation formulation : {Formulation::sparse, Formulation::articulated}) {
+        assembly.setState(x);
+        const std::vector<double> rates = assembly.rates(formulation);
+        EXPECT_NEAR(rates[0], rate, 0);
+        EXPECT_NEAR(rates[1], static_cast<double>(by.coupler) - rate, 1e-13 * (1 + std::abs(rate)));
+        EXPECT_NEAR(rates[2], static_cast<double>(by.rocker), 1e-13 * (1 + std::abs(rate)));
+        EXPECT_NEAR(rates[3], static_cast<double>(by.acceleration), 3e-13 * (1 + std::abs(rates[3])));
+      }
+    }
+  }
+}
+
+TEST(ClosedLoops, StartWhereTheyAreClosed) {
+  const Assembly<double> assembly(testing::fourBar(pinned()));
+  const auto by = truth(1, 4);
+  EXPECT_NEAR(assembly.output("C1.position.x"), static_cast<double>(by.closing[0]), 1e-15);
+  EXPECT_NEAR(assembly.output("C2.position.y"), static_cast<double>(by.closing[1]), 1e-15);
+  EXPECT_NEAR(assembly.output("B.rate"), static_cast<double>(by.coupler) - 4, 1e-13);
+}
+
+/// The rocker's moments about its pivot balance.
+TEST(ClosedLoops, TellTheForceThatClosesThem) {
+  const Assembly<double> assembly(testing::fourBar(pinned()));
+  const double psi = assembly.output("D.angle");
+  const double onRocker =
+      -0.6 * (std::cos(psi) * assembly.output("C.force.y") - std::sin(psi) * assembly.output("C.force.x"));
+  EXPECT_NEAR((0.05 + 1.5 * 0.09) * assembly.output("D.acceleration"), onRocker - 1.5 * 9.81 * 0.3 * std::cos(psi),
+              1e-12);
+  EXPECT_NEAR(assembly.output("C.moment.z"), 0, 0);
+}
+
+/// The three rows of a ball are more than a planar loop can tell apart.
+TEST(ClosedLoops, AreRefusedWhereRowsDependOnOthers) {
+  Closure ball = pinned();
+  ball.as = "ball";
+  ball.dependent = {"B", "D", "A"};
+  EXPECT_THROW(Assembly<double>(testing::fourBar(ball, 0)), UnfitPart);
+}
+
+}  // namespace
+}  // namespace gamut

@@ -1,0 +1,182 @@
+// Studies of machines that close on themselves: enclosures against trajectories of the same machine by hand in 128
+// bits, and what is refused.
+#include <gmock/gmock.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "analyses/flow/flow.hpp"
+#include "studies/machine.hpp"
+#include "studies/running/run.hpp"
+#include "studies/study.hpp"
+#include "tests/analyses/reference.hpp"
+#include "tests/mechanics/four_bar.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The lengths of tests/mechanics/four_bar.hpp, the horizon in s.
+std::string fourBarText(const std::string& horizon, const std::string& uncertain, const std::string& pin = "",
+                        const std::string& coupler = "angle = -0.5") {
+  const auto hinge = [](const std::string& name, const std::string& from, const std::string& to,
+                        const std::string& initial) {
+    return "[[mechanism.element]]\ntype = \"revolute\"\nname = \"" + name + "\"\nfrom = \"" + from + "\"\nto = \"" +
+           to + "\"\naxis = \"z\"\ninitial = { " + initial + " }\n";
+  };
+  const auto link = [](const std::string& name, const std::string& from, const std::string& to,
+                       const std::string& length) {
+    return "[[mechanism.element]]\ntype = \"link\"\nname = \"" + name + "\"\nfrom = \"" + from + "\"\nto = \"" + to +
+           "\"\nvector = [\"" + length + "\", 0, 0]\n";
+  };
+  const auto mass = [](const std::string& name, const std::string& at, const std::string& numbers) {
+    return "[[mechanism.element]]\ntype = \"mass\"\nname = \"" + name + "\"\nat = \"" + at + "\"\n" + numbers + "\n";
+  };
+  return "[study]\nanalysis = \"dynamics\"\nhorizon = " + horizon + "\noutput_step = " + horizon +
+         "\ncompare = [\"interval\", \"stochastic\"]\n[stochastic]\nsamples = 64\n"
+         "[mechanism]\ngravity = [0, \"-9.81\", 0]\n"
+         "parameters = { a = \"0.3 m\", b = \"0.8 m\", c = \"0.6 m\", d = \"0.9 m\" }\n" +
+         hinge("A", "inertial", "K1", "angle = 1, rate = 4") +
+         mass("crank", "K1", "mass = 1\ncentre = [\"0.15\", 0, 0]\ninertia = [\"0.0075\", \"0.0075\", \"0.0075\"]") +
+         link("ab", "K1", "PB", "a") + hinge("B", "PB", "K2", coupler) +
+         mass("coupler", "K2", "mass = 2\ncentre = [\"0.4\", \"0.1\", 0]\ninertia = [\"0.1\", \"0.1\", \"0.1\"]") +
+         link("bc", "K2", "C1", "b") + link("ground", "inertial", "PD", "d") + hinge("D", "PD", "K3", "angle = 1.6") +
+         mass("rocker", "K3", "mass = 1.5\ncentre = [\"0.3\", 0, 0]\ninertia = [\"0.05\", \"0.05\", \"0.05\"]") +
+         link("dc", "K3", "C2", "c") +
+         "[[mechanism.element]]\ntype = \"closure\"\nname = \"C\"\nas = \"pin\"\nfrom = \"C2\"\nto = \"C1\"\n" + pin +
+         "\n" + uncertain + "[[output]]\nquantity = \"A.angle\"\n[[output]]\nquantity = \"A.rate\"\n" +
+         "[[output]]\nquantity = \"C1.position.x\"\n[[output]]\nquantity = \"C2.position.y\"\n";
+}
+
+std::string uncertain(const std::vector<std::string>& quantities, const std::string& interval) {
+  std::string text;
+  for (const std::string& quantity : quantities)
+    text += "[[uncertain]]\nquantity = \"" + quantity + "\"\ninterval = \"" + interval + "\"\n";
+  return text;
+}
+
+Machine machineOf(const std::string& text) { return Machine(readStudyText(text, "s.toml")); }
+
+Recorded decimal(const char* number) { return constant<Recorded>(Interval(number)); }
+
+/// θ, θ̇ by lengths.
+Program byHand() {
+  return record(2, 4, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = testing::fourBarByHand<Recorded>(x[0], x[1], {p[0], p[1], p[2], p[3]}, decimal).acceleration;
+  });
+}
+
+/// The crank and the closing point, at the times of the tube, of every trajectory that starts from `angles` with
+/// lengths of the box.
+void expectEnclosed(const Tube& tube, const Box& lengths, const Interval& angles, int trajectories) {
+  testing::Points points;
+  testing::Reference reference(byHand());
+  for (int k = 0; k < trajectories; ++k) {
+    const testing::Vector p = k % 2 == 0 ? points.corner(lengths) : points.inside(lengths);
+    testing::Vector start{points.inside({angles})[0], Precise(4)};
+    start.insert(start.end(), p.begin(), p.end());
+    const std::vector<testing::Vector> truth = reference(start, tube.times());
+    for (std::size_t i = 0; i < tube.reachedTimes(); ++i) {
+      const Precise angle = truth[i][0];
+      const auto motion = testing::fourBarByHand<Precise>(angle, truth[i][1], {p[0], p[1], p[2], p[3]},
+                                                          [](const char* number) { return Precise(number); });
+      EXPECT_THAT(tube.outputs(i)[0], testing::Encloses(angle)) << tube.times()[i];
+      EXPECT_THAT(tube.outputs(i)[1], testing::Encloses(truth[i][1])) << tube.times()[i];
+      EXPECT_THAT(tube.outputs(i)[2], testing::Encloses(motion.closing[0])) << tube.times()[i];
+      EXPECT_THAT(tube.outputs(i)[3], testing::Encloses(motion.closing[1])) << tube.times()[i];
+    }
+  }
+}
+
+Tube enclosed(const Machine& machine, double tightness = 1.02) {
+  FlowOptions options;
+  options.tightness = tightness;
+  options.remainders = machine.remainders;
+  const Study& study = machine.study;
+  return Flow(machine.equations().f, machine.equations().g, options)
+      .enclose(machine.box, study.horizon, {study.horizon / 4, study.horizon});
+}
+
+Box lengthsWithin(double share) {
+  Box lengths;
+  for (const char* length : {"0.3", "0.8", "0.6", "0.9"}) {
+    const Interval whole = Interval(length) * Interval(1 - share, 1 + share);
+    lengths.push_back(whole);
+  }
+  return lengths;
+}
+
+TEST(ClosedLoopStudy, EnclosesAFourBarOfOneSetOfLengths) {
+  const Machine machine = machineOf(fourBarText("2", ""));
+  const Tube tube = enclosed(machine);
+  ASSERT_EQ(tube.reached(), 2);
+  EXPECT_LE(width(tube.outputs(tube.reachedTimes() - 1)[0]), 1e-10);
+  // A double of 0.3 is not 0.3, but near enough for what rounding leaves open.
+  Box lengths;
+  for (const Interval& length : lengthsWithin(0)) lengths.emplace_back(midpoint(length));
+  testing::Reference reference(byHand());
+  const testing::Vector truth =
+      reference({1, 4, Precise("0.3"), Precise("0.8"), Precise("0.6"), Precise("0.9")}, {2})[0];
+  EXPECT_THAT(tube.outputs(tube.reachedTimes() - 1)[0], testing::Encloses(truth[0]));
+  EXPECT_THAT(tube.outputs(tube.reachedTimes() - 1)[1], testing::Encloses(truth[1]));
+}
+
+TEST(ClosedLoopStudy, EnclosesAFourBarOfAnyLengthsWithinTheirTolerances) {
+  const Machine machine = machineOf(fourBarText("1", uncertain({"a", "b", "c", "d"}, "± 0.1 %")));
+  const Tube tube = enclosed(machine);
+  ASSERT_EQ(tube.reached(), 1) << tube.why();
+  EXPECT_LE(tube.tightness(), 1.02);
+  Box lengths(machine.box.begin() + 4, machine.box.end());
+  expectEnclosed(tube, lengths, Interval(1.0), 8);
+}
+
+/// As practice has them: the start alone is the point.
+TEST(ClosedLoopStudy, StartsFromEveryClosedPositionOfWideTolerances) {
+  for (const char* tolerance : {"± 1 %", "± 5 %"}) {
+    const Machine machine =
+        machineOf(fourBarText("0.05", uncertain({"a", "b", "c", "d"}, tolerance) + uncertain({"A.angle"}, "± 5 %")));
+    ASSERT_EQ(machine.freeParameters, (std::vector<std::string>{"a", "b", "c", "d", "A.angle"}));
+    const Tube tube = enclosed(machine, 3);
+    ASSERT_EQ(tube.reached(), 0.05) << tolerance << tube.why();
+    expectEnclosed(tube, Box(machine.box.begin() + 4, machine.box.begin() + 8), machine.box[8], 12);
+  }
+}
+
+TEST(ClosedLoopStudy, HasAllSamplesInItsEnclosure) {
+  const Study study = readStudyText(fourBarText("0.5", uncertain({"a", "c"}, "± 1 %")), "s.toml");
+  const Results results = run(study, {});
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+}
+
+std::string refusalOf(const std::string& text) {
+  try {
+    machineOf(text);
+  } catch (const StudyError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ClosedLoopStudy, SaysWhatCannotClose) {
+  EXPECT_THAT(refusalOf(fourBarText("1", uncertain({"d"}, "± 70 %"))), HasSubstr("is not proved to close for 'd' in"));
+  EXPECT_THAT(refusalOf(fourBarText("1", "", "dependent = [\"B\"]")),
+              HasSubstr("the loop 'C' is closed by 2 coordinates, but 1 is named; expected 2 coordinates"));
+  EXPECT_THAT(refusalOf(fourBarText("1", "", "dependent = [\"B\", \"X\"]")), HasSubstr("unknown joint 'X'"));
+  EXPECT_THAT(refusalOf(fourBarText("1", "", "dependent = [\"B\", \"B\"]")),
+              HasSubstr("closes another loop, or is named twice"));
+  EXPECT_THAT(refusalOf(fourBarText("1", "", "dependent = []")), HasSubstr("is empty"));
+  EXPECT_THAT(refusalOf(fourBarText("1", "", "dependent = \"B\"")), HasSubstr("is no list"));
+  EXPECT_THAT(refusalOf(fourBarText("1", "", "", "angle = -0.5, rate = 1")),
+              HasSubstr("has an initial rate, but closes 'C'"));
+  EXPECT_THAT(refusalOf(fourBarText("1", uncertain({"B.angle"}, "± 1 %"))),
+              HasSubstr("the joint 'B' closes a loop, so that 'B.angle' follows from the other joints"));
+  std::string far = fourBarText("1", "");
+  far.replace(far.find("d = \"0.9 m\""), 11, "d = \"3.9 m\"");
+  EXPECT_THAT(refusalOf(far), HasSubstr("the loop 'C' cannot be closed by B.angle, D.angle near their initial values"));
+}
+
+}  // namespace
+}  // namespace gamut
