@@ -27,12 +27,13 @@ std::vector<std::string> keys(const Map& map) {
     for (const std::string& name : loop.by) by += (by.empty() ? "" : ", ") + name;
   }
   const bool isOne = mechanism.loops().size() == 1;
-  throw UnfitPart(mechanism.loops().front().element,
-                  (isOne ? "the loop " : "the loops ") + loops + "' cannot be closed by " + by +
-                      (isFar ? " near their initial values" : ", which do not move all that has to close"),
-                  isFar ? "numbers that fit together, or initial values nearer to the closed position"
-                        : "coordinates that open it independently, named in `dependent`, or a closure that holds less "
-                          "(`pin` in planar loops)");
+  throw UnfitPart(
+      mechanism.loops().front().element,
+      (isOne ? "the loop " : "the loops ") + loops + "' cannot be closed by " + by +
+          (isFar ? " near their initial values" : ", which do not move all that has to close"),
+      isFar ? "numbers that fit together, initial values nearer to the closed position, or others in `dependent`"
+            : "coordinates that open it independently, named in `dependent`, or a closure that holds less "
+              "(`pin` in planar loops)");
 }
 
 }  // namespace

@@ -136,7 +136,8 @@ class Fields {
     return coordinateOf(word, name);
   }
   /// Coordinates that close a loop between two frames, so many: they follow from the others, and their initial
-  /// positions are where the closed position is looked for. Without names they are chosen by structure.
+  /// positions are where the closed position is looked for. Without names
+  /// they are those of the loop that stand last.
   virtual void dependentCoordinates(const Word& /*word*/, std::vector<std::string>& /*names*/, const Loop& /*loop*/) {}
   /// An expression of time alone and parameters.
   virtual void timeFunction(const Word& word, Expression& number) = 0;

@@ -320,18 +320,14 @@ std::vector<std::string> Mechanism::coordinatesBetween(const std::string& from, 
     one.pop_back();
     other.pop_back();
   }
-  std::array<std::vector<std::string>, 2> found;
-  for (std::size_t side = 0; side < 2; ++side)
-    for (const std::string& frame : side == 0 ? one : other)
-      if (const auto own = coordinatesOf_.find(moved_.find(frame)->element); own != coordinatesOf_.end())
-        std::ranges::copy_if(own->second, std::back_inserter(found[side]), [&](const std::string& name) {
-          const JointCoordinate& coordinate = *coordinates_.find(name);
-          return !coordinate.isDriven && !coordinate.isDependent && !isStruck(name) && !has(found[side], name);
-        });
+  std::unordered_set<std::string> elements;
+  for (const auto* side : {&one, &other})
+    for (const std::string& frame : *side) elements.insert(moved_.find(frame)->element);
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::max(found[0].size(), found[1].size()); ++i)
-    for (const auto& side : found)
-      if (i < side.size()) names.push_back(side[i]);
+  for (const JointCoordinate& coordinate : coordinates_)
+    if (elements.contains(coordinate.element) && !coordinate.isDriven && !coordinate.isDependent &&
+        !isStruck(coordinate.name))
+      names.push_back(coordinate.name);
   return names;
 }
 
@@ -463,7 +459,7 @@ class Mechanism::Checker final : public Fields {
                  (isChosen ? "between its frames " + std::to_string(names.size()) + " may follow from others"
                            : std::to_string(names.size()) + (names.size() == 1 ? " is named" : " are named")),
              isChosen ? "a loop with so many joints that move freely" : needed);
-    names.resize(loop.rows);
+    names.erase(names.begin(), names.end() - static_cast<std::ptrdiff_t>(loop.rows));
     for (std::string& name : names) {
       found(name);
       m_.depend(name, element_);

@@ -228,7 +228,7 @@ class Mechanism {
   void depend(const std::string& coordinate, const std::string& by);
   /// A driven or dependent one starts as what moves it says.
   void requireNoInitial(const std::string& number, const JointCoordinate& of, const std::string& by) const;
-  /// Coordinates of the joints between two frames, those nearest to them first, that may depend on others.
+  /// Coordinates of the joints between two frames that may depend on others, in the order of their description.
   std::vector<std::string> coordinatesBetween(const std::string& from, const std::string& to) const;
   /// What moves with a frame: itself, or one that it carries, also by coordinates that follow one of the element that
   /// moves it.

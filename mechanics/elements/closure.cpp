@@ -54,8 +54,8 @@ void describeEnds(Fields& f, std::string& from, std::string& to, ExpressionVecto
 }
 
 constexpr const char* dependentMeaning =
-    "a list of the coordinates that follow from the others, such as `[\"coupler\", \"rocker\"]`: those of the joints "
-    "nearest to it unless given. Their initial values are where the closed position is looked for";
+    "a list of the coordinates that follow from the others, such as `[\"coupler\", \"rocker\"]`: those of the "
+    "loop that stand last unless given. Their initial values are where the closed position is looked for";
 
 }  // namespace
 
