@@ -20,6 +20,23 @@ std::vector<std::string> keys(const Map& map) {
   return names;
 }
 
+bool dependOnParameters(const std::vector<Recorded>& values) {
+  const Recorder& recorder = *Recorder::current();
+  std::vector<char> isSeen(static_cast<std::size_t>(recorder.size()), 0);
+  std::vector<int> open;
+  const auto see = [&](int node) {
+    if (std::exchange(isSeen[node], 1) == 0) open.push_back(node);
+  };
+  for (const Recorded& value : values) see(value.node());
+  while (!open.empty()) {
+    const int node = open.back();
+    open.pop_back();
+    if (recorder.table().nodes[node].op == Op::parameter) return true;
+    detail::forEachOperand(recorder.table(), node, see);
+  }
+  return false;
+}
+
 [[noreturn]] void refuseOpen(const Mechanism& mechanism, bool isFar) {
   std::string loops, by;
   for (const Mechanism::Closed& loop : mechanism.loops()) {
@@ -96,7 +113,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
     initialState_.push_back(parts_.number(initial));
     origin_.push_back(isDifference[origin_.size()] ? initialState_.back() : S(0.0));
   }
-  closeLoops(mechanism, !freeParameters.empty());
+  closeLoops(mechanism);
   // What is recorded is the motion from any state; at the initial one it may be singular.
   if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
 }
@@ -123,9 +140,10 @@ std::vector<S> Assembly<S>::closingMap(std::span<const S> delta) {
 
 /// Newton's steps from the initial positions of dependent coordinates. Of doubles, shortened where they lead away
 /// (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3), until the loops are closed; of what is
-/// recorded so many from there as tolerances of practice need, none where no number is free. Other scalars start as is.
+/// recorded so many from there as tolerances of practice need, none where no free number is in the rows. Other scalars
+/// start as is.
 template <class S>
-void Assembly<S>::closeLoops(const Mechanism& mechanism, bool hasFreeParameters) {
+void Assembly<S>::closeLoops(const Mechanism& mechanism) {
   if (dependents_.empty()) return;
   const auto openingAt = [&](const std::vector<S>& positions) {
     for (std::size_t i = 0; i < dependents_.size(); ++i) initialState_[dependents_[i]] = positions[i];
@@ -165,7 +183,9 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism, bool hasFreeParameters)
     const Assembly<double> nominal(mechanism);
     for (std::size_t i = 0; i < at.size(); ++i) at[i] = S(nominal.initialState()[dependents_[i]]);
     constexpr int steps = 4;
-    for (int i = 0; hasFreeParameters && i < steps; ++i) at = moved(at, openingAt(at), 1);
+    openingAt(at);
+    const bool follows = dependOnParameters(system_->residuals());
+    for (int i = 0; follows && i < steps; ++i) at = moved(at, openingAt(at), 1);
     for (std::size_t i = 0; i < at.size(); ++i) initialState_[dependents_[i]] = origin_[dependents_[i]] = at[i];
   }
 }

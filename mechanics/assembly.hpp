@@ -79,7 +79,7 @@ class Assembly {
   std::vector<S> withOrigin(std::span<const S> x) const;
   void setUnfolded(std::vector<S> states, const std::vector<S>& signs, const S& time, bool isSmooth = false);
   void unfoldEnds(const Mechanism& mechanism);
-  void closeLoops(const Mechanism& mechanism, bool hasFreeParameters);
+  void closeLoops(const Mechanism& mechanism);
   void placeAtStart();
   void measureFrames();
   void measureReactions(const Mechanism& mechanism);
