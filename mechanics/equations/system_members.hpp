@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 #include <span>
+#include <string>
 
 #include "mechanics/equations/articulated_bodies.hpp"
 #include "mechanics/equations/least_constraint.hpp"
@@ -238,6 +239,9 @@ LinearSystem<S> System<S>::dependentRows() {
   std::vector<S> entries(m * m, S(0.0));
   for (std::size_t j = 0; j < m; ++j) {
     const std::vector<S> column = unitRows(first + j);
+    if (column.size() != m)
+      throw std::logic_error("loops have " + std::to_string(column.size()) + " rows, but " + std::to_string(m) +
+                             " dependent coordinates (Fields::dependentCoordinates)");
     for (std::size_t i = 0; i < m; ++i) entries[i * m + j] = column[i];
   }
   return LinearSystem<S>(MatrixKind::general, static_cast<int>(m), std::move(entries));
@@ -278,6 +282,7 @@ std::vector<S> System<S>::projected() {
     return right;
   };
   gamma = dependentPart(std::move(gamma));
+  if (f == 0) return gamma;
   gamma.insert(gamma.begin(), f, S(0.0));
   std::vector<std::vector<S>> tangents;
   for (std::size_t j = 0; j < f; ++j) {

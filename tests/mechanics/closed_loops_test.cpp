@@ -66,6 +66,31 @@ TEST(ClosedLoops, StartWhereTheyAreClosed) {
   EXPECT_NEAR(assembly.output("B.rate"), static_cast<double>(by.coupler) - 4, 1e-13);
 }
 
+/// Where the crank is driven nothing is left that moves by itself, and positions follow as states.
+TEST(ClosedLoops, FollowACrankThatIsDriven) {
+  Mechanism m = testing::fourBar(pinned(), 0, 0);
+  m.add(Drive{"motor", "A", Expression::parse("1 rad + 4 rad/s*t - 1 rad/s^2*t^2")});
+  EXPECT_EQ(m.stateNames(), (std::vector<std::string>{"B.angle", "D.angle"}));
+  Assembly<double> assembly(m);
+  const auto by = truth(1, 4);
+  EXPECT_NEAR(assembly.output("C1.position.x"), static_cast<double>(by.closing[0]), 1e-15);
+  for (const Formulation formulation : {Formulation::sparse, Formulation::articulated}) {
+    assembly.setState(assembly.initialState());
+    const std::vector<double> rates = assembly.rates(formulation);
+    ASSERT_EQ(rates.size(), 2U);
+    EXPECT_NEAR(rates[0], static_cast<double>(by.coupler) - 4, 1e-13);
+    EXPECT_NEAR(rates[1], static_cast<double>(by.rocker), 1e-13);
+  }
+  // Accelerations by differences along the motion.
+  const double h = 1e-5;
+  const auto rateAfter = [&](double t) {
+    const auto x = truth(Number(1 + 4 * t - t * t), Number(4 - 2 * t));
+    return static_cast<double>(x.rocker);
+  };
+  assembly.setState(assembly.initialState());
+  EXPECT_NEAR(assembly.output("D.acceleration"), (rateAfter(h) - rateAfter(-h)) / (2 * h), 1e-7);
+}
+
 /// The rocker's moments about its pivot balance.
 TEST(ClosedLoops, TellTheForceThatClosesThem) {
   const Assembly<double> assembly(testing::fourBar(pinned()));

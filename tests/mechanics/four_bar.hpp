@@ -11,9 +11,9 @@
 
 namespace gamut::testing {
 
-/// The crank at 1 rad and `rate`, the coupler's and the rocker's angles where the closed position is looked for.
+/// The crank at `angle` and `rate`, the coupler's and the rocker's angles where the closed position is looked for.
 /// Lengths a, b, c, d.
-inline Mechanism fourBar(const Closure& closure, double rate = 4) {
+inline Mechanism fourBar(const Closure& closure, double rate = 4, double angle = 1) {
   Mechanism m;
   for (const auto& [name, length] : {std::pair{"a", "0.3"}, {"b", "0.8"}, {"c", "0.6"}, {"d", "0.9"}})
     m.addParameter(name, Interval(length), "m");
@@ -21,7 +21,7 @@ inline Mechanism fourBar(const Closure& closure, double rate = 4) {
   const auto turning = [](const char* inertia) {
     return std::array<Expression, 6>{Interval(inertia), Interval(inertia), Interval(inertia), 0.0, 0.0, 0.0};
   };
-  m.add(Revolute{"A", "inertial", "K1", axisZ, 1.0, rate});
+  m.add(Revolute{"A", "inertial", "K1", axisZ, angle, rate});
   m.add(Mass{"crank", "K1", 1.0, {Interval("0.15"), 0.0, 0.0}, turning("0.0075")});
   m.add(Link{"ab", "K1", "PB", along("a")});
   m.add(Revolute{"B", "PB", "K2", axisZ, Interval("-0.5"), 0.0});
