@@ -139,9 +139,9 @@ std::vector<S> Assembly<S>::closingMap(std::span<const S> delta) {
 }
 
 /// Newton's steps from the initial positions of dependent coordinates. Of doubles, shortened where they lead away
-/// (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3), until the loops are closed; of what is
-/// recorded so many from there as tolerances of practice need, none where no free number is in the rows. Other scalars
-/// start as is.
+/// (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3), until the loops are closed; of other
+/// scalars so many from there as tolerances of practice need, none where what is recorded has no free number in the
+/// rows.
 template <class S>
 void Assembly<S>::closeLoops(const Mechanism& mechanism) {
   if (dependents_.empty()) return;
@@ -163,29 +163,39 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism) {
       for (const double each : by) largest = std::abs(each) <= largest ? largest : std::abs(each);
       return largest;
     };
-    constexpr int most = 200;
-    constexpr double closed = 1e-9;
-    std::vector<double> by = openingAt(at);
-    for (int i = 0; i < most && size(by) > 0; ++i) {
+    const auto turns = [&](std::size_t i) {
+      return mechanism.coordinates().find(mechanism.dependents()[i])->kind == Coordinate::angle;
+    };
+    constexpr double mostTurn = 0.5;  // rad a step: linear laws say no more
+    const auto shareOf = [&](const std::vector<double>& by) {
       double share = 1;
-      std::vector<double> next = moved(at, by, share), rest = openingAt(next);
-      while (!(size(rest) < (1 - share / 4) * size(by)) && share > 1e-4) {
-        share /= 2;
-        rest = openingAt(next = moved(at, by, share));
-      }
-      if (!(size(rest) < size(by))) break;
-      at = std::move(next);
+      for (std::size_t i = 0; i < by.size(); ++i)
+        if (turns(i)) share = std::min(share, mostTurn / std::max(std::abs(by[i]), mostTurn));
+      return share;
+    };
+    constexpr int most = 200;
+    constexpr double closed = 1e-9, digits = 1e-12;
+    std::vector<double> by = openingAt(at);
+    for (int i = 0; i < most && size(by) != 0; ++i) {
+      if (!(size(by) <= std::numeric_limits<double>::max()))  // singular there, as where all start at 0
+        for (std::size_t k = 0; k < at.size(); ++k) at[k] += turns(k) ? 0.2 * static_cast<double>(k + 1) : 0.0;
+      else
+        at = moved(at, by, shareOf(by));
+      std::vector<double> rest = openingAt(at);
+      if (!(size(rest) < size(by)) && size(by) < digits) break;
       by = std::move(rest);
     }
-    openingAt(at);
+    by = openingAt(at);
     if (!(size(by) < closed)) refuseOpen(mechanism, size(by) == size(by));
-  } else if constexpr (std::is_same_v<S, Recorded>) {
+  } else {
     const Assembly<double> nominal(mechanism);
     for (std::size_t i = 0; i < at.size(); ++i) at[i] = S(nominal.initialState()[dependents_[i]]);
-    constexpr int steps = 4;
-    openingAt(at);
-    const bool follows = dependOnParameters(system_->residuals());
-    for (int i = 0; follows && i < steps; ++i) at = moved(at, openingAt(at), 1);
+    int steps = 4;
+    if constexpr (std::is_same_v<S, Recorded>) {
+      openingAt(at);
+      if (!dependOnParameters(system_->residuals())) steps = 0;
+    }
+    for (int i = 0; i < steps; ++i) at = moved(at, openingAt(at), 1);
     for (std::size_t i = 0; i < at.size(); ++i) initialState_[dependents_[i]] = origin_[dependents_[i]] = at[i];
   }
 }

@@ -117,6 +117,20 @@ void refuseOpenLoops(const Study& study, const std::vector<std::string>& freePar
          "narrower intervals, or a position that is farther from where the loop cannot be closed");
 }
 
+void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters, const Program& closing) {
+  for (const UncertainQuantity& uncertain : study.uncertain) {
+    const auto name = std::ranges::find(freeParameters, uncertain.quantity);
+    if (!uncertain.varies || name == freeParameters.end()) continue;
+    const auto isIt = [&](const Node& node) {
+      return node.op == Op::parameter && node.a == name - freeParameters.begin();
+    };
+    if (std::ranges::any_of(closing.nodes(), isIt))
+      refuse(study.places.of(uncertain.quantity),
+             fmt::format("'{}' varies in time, but where a loop is closed follows from it", uncertain.quantity),
+             "a quantity that is constant, or one that no loop follows from, such as a mass or a force");
+  }
+}
+
 void refuseMechanism(const Study& study) try { throw; } catch (const UndefinedOutput& error) {
   refuse(study.places.outputs[error.output()],
          fmt::format("'{}' {}", study.outputs[error.output()].quantity, error.what()), "a formula that has a value");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scalars/interval.hpp"
+#include "scalars/program/program.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
@@ -15,5 +16,9 @@ namespace gamut {
 
 /// Throws a StudyError: loops are not proved to close for values of the free parameters in a part of their box.
 [[noreturn]] void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part);
+
+/// Throws a StudyError if a quantity that varies in time is in the rows that close loops (recordClosing): positions
+/// would have to follow it at once.
+void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters, const Program& closing);
 
 }  // namespace gamut

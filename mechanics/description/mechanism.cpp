@@ -283,7 +283,7 @@ void Mechanism::requireNoInitial(const std::string& number, const JointCoordinat
   if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
     refuse("the joint " + inQuotes(of.element) + " has " + (of.isDependent ? "an initial rate" : "initial values") +
                ", but " + by,
-           of.isDependent ? "none: it follows from the rates of the others"
+           of.isDependent ? "none: it follows from the rates of the others, or other coordinates in `dependent`"
                           : "no initial values: it starts where it is driven");
 }
 

@@ -259,6 +259,10 @@ class StudyReader {
   void checkDrives(const toml::node& mechanism) const {
     const Mechanism& m = study_.mechanism;
     if (m.positions() == 0 && m.degreesOfFreedom() == 0) return;
+    if (m.isClosed())
+      source_.fail(*places_.at(m.loops().front().element),
+                   fmt::format("in inverse dynamics the loop '{}' cannot be closed", m.loops().front().element),
+                   "analysis = \"dynamics\", which follows driven joints through loops and tells what drives need");
     const std::string state = m.stateNames().front();
     const auto joint = std::ranges::find_if(
         m.elements(), [&](const Described& element) { return state.starts_with(element.name() + "."); });

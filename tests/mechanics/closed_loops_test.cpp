@@ -66,6 +66,23 @@ TEST(ClosedLoops, StartWhereTheyAreClosed) {
   EXPECT_NEAR(assembly.output("B.rate"), static_cast<double>(by.coupler) - 4, 1e-13);
 }
 
+/// From wherever they are looked for: on one branch or the other, and not turns away.
+TEST(ClosedLoops, StartNearWhereTheyAreLookedFor) {
+  int closed = 0;
+  for (int i = -4; i < 4; ++i)
+    for (int j = -4; j < 4; ++j) {
+      const std::array<double, 2> guess{0.75 * i, 0.75 * j};
+      try {
+        const std::vector<double> x = Assembly<double>(testing::fourBar(pinned(), 4, 1, guess)).initialState();
+        ++closed;
+        EXPECT_LT(std::abs(x[1] - guess[0]), 6.3) << guess[0] << " " << guess[1];
+        EXPECT_LT(std::abs(x[2] - guess[1]), 6.3) << guess[0] << " " << guess[1];
+      } catch (const UnfitPart&) {
+      }
+    }
+  EXPECT_GE(closed, 56);
+}
+
 /// Where the crank is driven nothing is left that moves by itself, and positions follow as states.
 TEST(ClosedLoops, FollowACrankThatIsDriven) {
   Mechanism m = testing::fourBar(pinned(), 0, 0);

@@ -13,7 +13,8 @@ namespace gamut::testing {
 
 /// The crank at `angle` and `rate`, the coupler's and the rocker's angles where the closed position is looked for.
 /// Lengths a, b, c, d.
-inline Mechanism fourBar(const Closure& closure, double rate = 4, double angle = 1) {
+inline Mechanism fourBar(const Closure& closure, double rate = 4, double angle = 1,
+                         std::array<double, 2> guess = {-0.5, 1.6}) {
   Mechanism m;
   for (const auto& [name, length] : {std::pair{"a", "0.3"}, {"b", "0.8"}, {"c", "0.6"}, {"d", "0.9"}})
     m.addParameter(name, Interval(length), "m");
@@ -24,11 +25,11 @@ inline Mechanism fourBar(const Closure& closure, double rate = 4, double angle =
   m.add(Revolute{"A", "inertial", "K1", axisZ, angle, rate});
   m.add(Mass{"crank", "K1", 1.0, {Interval("0.15"), 0.0, 0.0}, turning("0.0075")});
   m.add(Link{"ab", "K1", "PB", along("a")});
-  m.add(Revolute{"B", "PB", "K2", axisZ, Interval("-0.5"), 0.0});
+  m.add(Revolute{"B", "PB", "K2", axisZ, guess[0], 0.0});
   m.add(Mass{"coupler", "K2", 2.0, {Interval("0.4"), Interval("0.1"), 0.0}, turning("0.1")});
   m.add(Link{"bc", "K2", "C1", along("b")});
   m.add(Link{"ground", "inertial", "PD", along("d")});
-  m.add(Revolute{"D", "PD", "K3", axisZ, Interval("1.6"), 0.0});
+  m.add(Revolute{"D", "PD", "K3", axisZ, guess[1], 0.0});
   m.add(Mass{"rocker", "K3", Interval("1.5"), {Interval("0.3"), 0.0, 0.0}, turning("0.05")});
   m.add(Link{"dc", "K3", "C2", along("c")});
   m.add(closure);

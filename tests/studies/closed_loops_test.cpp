@@ -151,6 +151,29 @@ TEST(ClosedLoopStudy, HasAllSamplesInItsEnclosure) {
   EXPECT_EQ(results.comparison.verdict, Agreement::inside);
 }
 
+/// All at one position: by the assembly itself and by programs.
+TEST(ClosedLoopStudy, PlacesALinkageInKinematics) {
+  std::string text = fourBarText("1", uncertain({"a", "d"}, "± 2 %") + uncertain({"A.angle"}, "± 3 %"));
+  text.replace(text.find("\"dynamics\"\nhorizon = 1\noutput_step = 1"), 38, "\"kinematics\"");
+  const Machine machine = machineOf(text);
+  const Results results = run(machine, {});
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+  EXPECT_LE(results.comparison.maximum, 1.02);
+  testing::Points points;
+  for (int k = 0; k < 40; ++k) {
+    const Box& box = machine.box;
+    const std::size_t first = machine.states;
+    const testing::Vector p = k % 2 == 0 ? points.corner({box[first], box[first + 1], box[first + 2]})
+                                         : points.inside({box[first], box[first + 1], box[first + 2]});
+    const auto motion = testing::fourBarByHand<Precise>(p[2], Precise(4), {p[0], Precise("0.8"), Precise("0.6"), p[1]},
+                                                        [](const char* number) { return Precise(number); });
+    const std::array<Precise, 4> truth{p[2], Precise(4), motion.closing[0], motion.closing[1]};
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_THAT(Interval(results.interval.at.lower(0, j), results.interval.at.upper(0, j)),
+                  testing::Encloses(truth[j]));
+  }
+}
+
 std::string refusalOf(const std::string& text) {
   try {
     machineOf(text);
@@ -173,6 +196,11 @@ TEST(ClosedLoopStudy, SaysWhatCannotClose) {
               HasSubstr("has an initial rate, but closes 'C'"));
   EXPECT_THAT(refusalOf(fourBarText("1", uncertain({"B.angle"}, "± 1 %"))),
               HasSubstr("the joint 'B' closes a loop, so that 'B.angle' follows from the other joints"));
+  EXPECT_THAT(refusalOf(fourBarText("1", uncertain({"a"}, "± 1 %") + "varies = \"freely\"\n")),
+              HasSubstr("'a' varies in time, but where a loop is closed follows from it"));
+  std::string inverse = fourBarText("1", "");
+  inverse.replace(inverse.find("\"dynamics\""), 10, "\"inverse-dynamics\"");
+  EXPECT_THAT(refusalOf(inverse), HasSubstr("in inverse dynamics the loop 'C' cannot be closed"));
   std::string far = fourBarText("1", "");
   far.replace(far.find("d = \"0.9 m\""), 11, "d = \"3.9 m\"");
   EXPECT_THAT(refusalOf(far), HasSubstr("the loop 'C' cannot be closed by B.angle, D.angle near their initial values"));
