@@ -117,6 +117,30 @@ TEST(ClosedLoops, TellTheForceThatClosesThem) {
   EXPECT_NEAR((0.05 + 1.5 * 0.09) * assembly.output("D.acceleration"), onRocker - 1.5 * 9.81 * 0.3 * std::cos(psi),
               1e-12);
   EXPECT_NEAR(assembly.output("C.moment.z"), 0, 0);
+  for (const std::string& quantity : testing::fourBar(pinned()).outputQuantities())
+    EXPECT_TRUE(std::isfinite(assembly.output(quantity))) << quantity;
+}
+
+/// A pendulum of 2 m without an angle, θ = 0.5: the rod pulls by m (g cos θ + l θ̇²).
+TEST(ClosedLoops, HoldAPointByARod) {
+  Mechanism m;
+  m.add(Prismatic{"across", "inertial", "carriage", axisY, 2 * std::sin(0.5), 2 * std::cos(0.5) * 1.5});
+  m.add(Prismatic{"down", "carriage", "tip", axisZ, -1.0, 0.0});
+  m.add(Mass{"bob", "tip", 1.5});
+  RodClosure rod;
+  rod.name = "rod";
+  rod.from = "inertial";
+  rod.to = "tip";
+  rod.length = 2.0;
+  m.add(rod);
+  m.setGravity({0.0, 0.0, -10.0});
+  EXPECT_EQ(m.dependents(), (std::vector<std::string>{"down.displacement"}));
+  const Assembly<double> assembly(m);
+  EXPECT_NEAR(assembly.output("tip.position.z"), -2 * std::cos(0.5), 1e-15);
+  EXPECT_NEAR(assembly.output("down.rate"), 2 * std::sin(0.5) * 1.5, 1e-14);
+  EXPECT_NEAR(assembly.output("rod.force"), -1.5 * (10 * std::cos(0.5) + 2 * 1.5 * 1.5), 1e-13);
+  EXPECT_NEAR(assembly.output("across.acceleration"), 2 * (-std::cos(0.5) * 5 * std::sin(0.5) - std::sin(0.5) * 2.25),
+              1e-13);
 }
 
 /// The three rows of a ball are more than a planar loop can tell apart.
