@@ -971,13 +971,15 @@ constexpr BadStudy badStudies[] = {
     {"type = \"revolute\"", "type = \"revolut\"",
      "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, screw, "
      "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, "
-     "link, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, joint-stop, "
+     "link, closure, rod, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, "
+     "joint-stop, "
      "rigid-stop, plane-contact, "
      "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion)"},
     {"type = \"revolute\"", "",
      "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, screw, "
      "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, "
-     "link, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, joint-stop, "
+     "link, closure, rod, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, "
+     "joint-stop, "
      "rigid-stop, plane-contact, "
      "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion"},
     {"axis = \"x\"", "axis = \"w\"",
