@@ -138,10 +138,9 @@ std::vector<S> Assembly<S>::closingMap(std::span<const S> delta) {
   return image;
 }
 
-/// Newton's steps from the initial positions of dependent coordinates. Of doubles, shortened where they lead away
-/// (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3), until the loops are closed; of other
-/// scalars so many from there as tolerances of practice need, none where what is recorded has no free number in the
-/// rows.
+/// Newton's steps from the initial positions of dependent coordinates. Of doubles none turns by more than half a
+/// radian, until the loops are closed; of other scalars so many from there as tolerances of practice need, none where
+/// what is recorded has no free number in the rows.
 template <class S>
 void Assembly<S>::closeLoops(const Mechanism& mechanism) {
   if (dependents_.empty()) return;

@@ -84,6 +84,17 @@ Program recordClosing(const Mechanism& mechanism, const std::vector<std::string>
                 });
 }
 
+Program recordLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
+  const int states = static_cast<int>(mechanism.stateNames().size());
+  return record(states, static_cast<int>(freeParameters.size()), static_cast<int>(mechanism.dependents().size()),
+                [&](auto t, const auto& x, const auto& p, auto& y) {
+                  Assembly<Recorded> assembly(mechanism, freeParameters, p);
+                  assembly.setState(x, t);
+                  const std::vector<Recorded> rows = assembly.system().residuals();
+                  for (std::size_t i = 0; i < rows.size(); ++i) y[i] = rows[i];
+                });
+}
+
 std::vector<RestingPair> restsOf(const Mechanism& mechanism) {
   const std::vector<std::string> names = mechanism.stateNames();
   const auto placeOf = [&](const std::string& state) {

@@ -30,6 +30,9 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
 /// coordinate, and of the named parameters.
 Program recordClosing(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
 
+/// The rows g of all loops, of the states (themselves, not differences) and of the named parameters.
+Program recordLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
+
 /// Throws UnfitPart if points between which an element measures a length do not lie apart at the start.
 void checkStart(const Mechanism& mechanism);
 

@@ -122,7 +122,7 @@ void closeLoops(Machine& machine) {
   const Mechanism& mechanism = machine.study.mechanism;
   if (!mechanism.isClosed()) return;
   machine.closing = recordClosing(mechanism, machine.freeParameters);
-  refuseVaryingLoops(machine.study, machine.freeParameters, machine.closing);
+  refuseVaryingLoops(machine.study, machine.freeParameters);
   const std::vector<std::string> names = mechanism.stateNames();
   for (const std::string& dependent : mechanism.dependents())
     machine.remainders.push_back(static_cast<int>(std::ranges::find(names, dependent) - names.begin()));

@@ -117,14 +117,16 @@ void refuseOpenLoops(const Study& study, const std::vector<std::string>& freePar
          "narrower intervals, or a position that is farther from where the loop cannot be closed");
 }
 
-void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters, const Program& closing) {
+void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters) {
+  if (std::ranges::none_of(study.uncertain, &UncertainQuantity::varies)) return;
+  const Program rows = recordLoops(study.mechanism, freeParameters);
   for (const UncertainQuantity& uncertain : study.uncertain) {
     const auto name = std::ranges::find(freeParameters, uncertain.quantity);
     if (!uncertain.varies || name == freeParameters.end()) continue;
     const auto isIt = [&](const Node& node) {
       return node.op == Op::parameter && node.a == name - freeParameters.begin();
     };
-    if (std::ranges::any_of(closing.nodes(), isIt))
+    if (std::ranges::any_of(rows.nodes(), isIt))
       refuse(study.places.of(uncertain.quantity),
              fmt::format("'{}' varies in time, but where a loop is closed follows from it", uncertain.quantity),
              "a quantity that is constant, or one that no loop follows from, such as a mass or a force");

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "scalars/interval.hpp"
-#include "scalars/program/program.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
@@ -17,8 +16,8 @@ namespace gamut {
 /// Throws a StudyError: loops are not proved to close for values of the free parameters in a part of their box.
 [[noreturn]] void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part);
 
-/// Throws a StudyError if a quantity that varies in time is in the rows that close loops (recordClosing): positions
-/// would have to follow it at once.
-void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters, const Program& closing);
+/// Throws a StudyError if a quantity that varies in time is in the rows that close loops, at the start or elsewhere:
+/// positions would have to follow it at once.
+void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters);
 
 }  // namespace gamut

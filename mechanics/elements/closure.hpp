@@ -10,8 +10,7 @@ struct Closure {
   static constexpr int order = 132;  ///< in the documentation
   static constexpr const char* summary =
       "closes a loop: a joint between two frames that other elements move already. As many coordinates of the loop as "
-      "it "
-      "takes freedoms follow from the others";
+      "it takes freedoms follow from the others";
 
   std::string name, from, to, as = "ball";
   ExpressionVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};  ///< m

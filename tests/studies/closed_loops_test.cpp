@@ -198,6 +198,17 @@ TEST(ClosedLoopStudy, SaysWhatCannotClose) {
               HasSubstr("the joint 'B' closes a loop, so that 'B.angle' follows from the other joints"));
   EXPECT_THAT(refusalOf(fourBarText("1", uncertain({"a"}, "± 1 %") + "varies = \"freely\"\n")),
               HasSubstr("'a' varies in time, but where a loop is closed follows from it"));
+  // One that no row follows from at the start, where its lever is exactly 0.
+  std::string lever = fourBarText("1", uncertain({"arm"}, "± 1 %") + "varies = \"freely\"\n");
+  lever.replace(lever.find("d = \"0.9 m\""), 11, "d = \"0.9 m\", arm = \"0.1 m\"");
+  lever.replace(lever.find("angle = 1, rate = 4"), 19, "angle = 0, rate = 4");
+  lever.replace(lever.find("[[mechanism.element]]\ntype = \"closure\""), 22,
+                "[[mechanism.element]]\ntype = \"revolute\"\nname = \"E\"\nfrom = \"inertial\"\nto = \"K4\"\n"
+                "axis = \"z\"\n[[mechanism.element]]\ntype = \"mass\"\nname = \"e\"\nat = \"K4\"\nmass = 1\n"
+                "inertia = [1, 1, 1]\n[[mechanism.element]]\ntype = \"closure\"\nname = \"P\"\nas = \"plane\"\n"
+                "axis = \"y\"\nfrom = \"inertial\"\nto = \"K4\"\nto_point = [\"arm\", 0, 0]\ndependent = [\"E\"]\n"
+                "[[mechanism.element]]\n");
+  EXPECT_THAT(refusalOf(lever), HasSubstr("'arm' varies in time, but where a loop is closed follows from it"));
   std::string inverse = fourBarText("1", "");
   inverse.replace(inverse.find("\"dynamics\""), 10, "\"inverse-dynamics\"");
   EXPECT_THAT(refusalOf(inverse), HasSubstr("in inverse dynamics the loop 'C' cannot be closed"));
