@@ -80,6 +80,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
       states_.push_back(&speeds.back().get().rate);
     } else if (const auto variable = parts_.variables_.find(names[i]); variable != parts_.variables_.end()) {
       states_.push_back(&variable->second->position);
+      coordinates_.push_back(variable->second);
       const auto dependent = std::ranges::find(mechanism.dependents(), names[i]) - mechanism.dependents().begin();
       if (mechanism.coordinates().find(names[i])->isDependent)
         positionRates_.push_back([this, moved = variable->second, dependent] {
@@ -123,6 +124,34 @@ template <class S>
 void Assembly<S>::placeAtStart() {
   for (std::size_t i = 0; i < states_.size(); ++i) *states_[i] = initialState_[i];
   system_->doMotion(MotionLevel::position);
+}
+
+template <class S>
+std::vector<S> Assembly<S>::rowsOfMotion(std::span<const S> v, std::span<const S> rates,
+                                         std::span<const S> accelerations, const S& time) {
+  const std::size_t own = ownRates_.size();
+  std::size_t at = 0;
+  for (Variable<S>* variable : coordinates_) {
+    variable->position = v[at];
+    variable->rate = rates[at];
+    variable->acceleration = accelerations[at++];
+  }
+  for (std::size_t k = 0; k < own; ++k) *states_[states_.size() - own + k] = v[at++];
+  for (Constraint<S>* constraint : chain_.constraints()) {
+    std::vector<S> multipliers(constraint->residuals().size());
+    for (S& multiplier : multipliers) multiplier = v[at++];
+    constraint->setMultipliers(std::move(multipliers));
+  }
+  parts_.time_ = time;
+  known_ = Known::solving;
+  system_->doMotion();
+  system_->doForce();
+  known_ = Known::state;
+  std::vector<S> rows;
+  for (const Variable<S>* variable : coordinates_) rows.push_back(variable->force);
+  for (std::size_t k = 0; k < own; ++k) rows.push_back(ownRates_[k]() - rates[coordinates_.size() + k]);
+  for (S& row : system_->residuals()) rows.push_back(std::move(row));
+  return rows;
 }
 
 template <class S>

@@ -67,6 +67,15 @@ class Assembly {
   /// points are what the loops are closed at.
   std::vector<S> closingMap(std::span<const S> delta);
 
+  /// The rows of motion R(v, v̇, v̈) of v = [q; z; λ], all numbers of which are free: of each coordinate its generalised
+  /// force, inertia and multipliers λ of the loops included; of each own state by what its rate exceeds ż; the loops'
+  /// rows g. At t = 0. Every position has to be a coordinate.
+  std::vector<S> rowsOfMotion(std::span<const S> v, std::span<const S> rates, std::span<const S> accelerations,
+                              const S& time);
+
+  /// Further quantities that are known from elsewhere (Mechanism::measureModes).
+  void tell(const std::string& quantity, Signal<S> value) { parts_.measured_[quantity] = std::move(value); }
+
   /// A number of the mechanism: a formula over its parameters.
   S number(const Expression& number) const { return parts_.number(number); }
   /// A frame by name. Throws std::invalid_argument, naming the nearest, if there is none.
@@ -99,7 +108,8 @@ class Assembly {
   Chain<S> chain_;
   std::unique_ptr<System<S>> system_;
   std::unique_ptr<Unfolding<S>> unfolding_;
-  std::vector<S*> states_;  // in the order of Mechanism::stateNames()
+  std::vector<S*> states_;                 // in the order of Mechanism::stateNames()
+  std::vector<Variable<S>*> coordinates_;  // positions of them
   std::vector<Signal<S>> positionRates_, ownRates_;
   std::vector<std::size_t> dependents_;   // states: the positions of coordinates that close loops, in their order
   std::vector<S> opening_;                // of the present state

@@ -6,14 +6,19 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <memory>
 #include <numbers>
+#include <set>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
 #include "analyses/roots/root_family.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
+#include "mechanics/rest.hpp"
 #include "scalars/recorded.hpp"
 #include "studies/machine_faults.hpp"
 #include "studies/results/fuzzy.hpp"
@@ -27,6 +32,31 @@ std::vector<std::string> freeParametersOf(const Study& study) {
   for (const UncertainQuantity& uncertain : study.uncertain)
     if (study.mechanism.isFreeParameter(uncertain.quantity)) names.push_back(uncertain.quantity);
   return names;
+}
+
+Box boxOf(const Study& study, const std::vector<std::string>& parameters) {
+  Box box;
+  for (const UncertainQuantity& uncertain : study.uncertain)
+    if (std::ranges::find(parameters, uncertain.quantity) != parameters.end()) box.push_back(uncertain.uncertain.range);
+  return box;
+}
+
+/// Those that outputs ask for.
+std::set<int> modesIn(const Study& study) {
+  std::set<int> modes;
+  for (const WantedOutput& output : study.outputs)
+    for (const std::string& name : output.expression.names())
+      for (int mode = 1; mode <= study.mechanism.degreesOfFreedom(); ++mode)
+        for (const char* what : {"frequency.", "damping."})
+          if (name == what + std::to_string(mode)) modes.insert(mode);
+  return modes;
+}
+
+/// Moves it to rest, and tells it of modes.
+void putToRest(Assembly<Recorded>& assembly, const Rest::Found& at) {
+  assembly.setState(at.state);
+  for (const auto& [name, value] : at.known) assembly.tell(name, [value] { return value; });
+  for (const auto& [name, why] : at.unknown) assembly.tell(name, [why]() -> Recorded { throw std::domain_error(why); });
 }
 
 /// What varies in time follows a course: swinging once in the study's time at least, and twice as fast as the motion
@@ -72,32 +102,45 @@ class MemoryBound {
   rlimit before_{};
 };
 
-void recordAnalysis(const Study& study, const std::vector<std::string>& parameters, Motion& motion) {
+void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std::string>& parameters, Motion& motion) {
   const std::vector<Expression> outputs = outputExpressions(study);
   const auto outputsOf = [&](const Assembly<Recorded>& assembly) { return recordOutputs(assembly, outputs); };
   if (study.isMotionGiven()) {
     motion.f =
         record(1, static_cast<int>(parameters.size()), [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
-    motion.g = recordedOf(study, outputs.size(), outputsOf);
-  } else if (study.analysis != Study::Analysis::kinematics) {
+    motion.g = recordedOf(study, rest, outputs.size(), outputsOf);
+  } else if (study.moves()) {
     motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
     motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
     motion.g = recordOutputs(study.mechanism, parameters, outputs);
     motion.rests = restsOf(study.mechanism);
   } else {
-    motion.g = recordedOf(study, outputs.size(), outputsOf);
+    motion.g = recordedOf(study, rest, outputs.size(), outputsOf);
     motion.f = record(0, motion.g.parameters(), [](auto, const auto&, const auto&, auto&) {});
   }
+}
+
+/// Of remainders, that it does without, and parameters.
+Program outputsAtRest(const Study& study, const Rest& rest, const std::vector<std::string>& parameters) {
+  const std::vector<Expression> outputs = outputExpressions(study);
+  return record(0, rest.remainders() + static_cast<int>(parameters.size()), static_cast<int>(outputs.size()),
+                [&](auto, const auto&, const auto& p, auto& y) {
+                  const std::span<const Recorded> values = std::span<const Recorded>(p).subspan(rest.remainders());
+                  Assembly<Recorded> assembly(study.mechanism, parameters, values);
+                  putToRest(assembly, rest.at(values));
+                  std::ranges::copy(recordOutputs(assembly, outputs), y.begin());
+                });
 }
 
 /// Initial values, then free parameters, and in which of them the uncertain quantities are.
 void takeNumbers(Machine& machine) {
   const Mechanism& mechanism = machine.study.mechanism;
   UncertainMotion& motion = machine.motion;
-  const std::vector<std::string> names = mechanism.stateNames();
+  const std::vector<std::string> names = machine.rest ? std::vector<std::string>() : mechanism.stateNames();
   const std::vector<bool> isDifference = mechanism.startsWith(machine.freeParameters);
-  for (const Expression& initial : mechanism.initialState())
-    machine.box.push_back(isDifference[machine.box.size()] ? Interval(0.0) : mechanism.rangeOf(initial));
+  if (machine.rest) machine.box.assign(machine.rest->remainders(), Interval(0.0));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    machine.box.push_back(isDifference[i] ? Interval(0.0) : mechanism.rangeOf(mechanism.initialState()[i]));
   if (machine.study.isMotionGiven()) machine.box.emplace_back(0.0);
   machine.states = machine.box.size();
   std::unordered_map<std::string, int> slotOf;
@@ -117,15 +160,20 @@ void takeNumbers(Machine& machine) {
   }
 }
 
-/// Dependent coordinates start at what is left between Newton's steps and the closed loops, for all values of the box.
-void closeLoops(Machine& machine) {
+/// Dependent coordinates start at what is left between Newton's steps and the closed loops, for all values of the box;
+/// at rest all numbers are of this kind.
+void closeFamilies(Machine& machine) {
   const Mechanism& mechanism = machine.study.mechanism;
-  if (!mechanism.isClosed()) return;
-  machine.closing = recordClosing(mechanism, machine.freeParameters);
-  refuseVaryingLoops(machine.study, machine.freeParameters);
-  const std::vector<std::string> names = mechanism.stateNames();
-  for (const std::string& dependent : mechanism.dependents())
-    machine.remainders.push_back(static_cast<int>(std::ranges::find(names, dependent) - names.begin()));
+  if (machine.rest) {
+    machine.closing = machine.rest->families();
+    for (std::size_t i = 0; i < machine.states; ++i) machine.remainders.push_back(static_cast<int>(i));
+  } else if (mechanism.isClosed()) {
+    machine.closing = {recordClosing(mechanism, machine.freeParameters)};
+    refuseVaryingLoops(machine.study, machine.freeParameters);
+    const std::vector<std::string> names = mechanism.stateNames();
+    for (const std::string& dependent : mechanism.dependents())
+      machine.remainders.push_back(static_cast<int>(std::ranges::find(names, dependent) - names.begin()));
+  }
   machine.box = machine.closed(std::move(machine.box));
   for (const int slot : machine.remainders) machine.motion.nominal[slot] = midpoint(machine.box[slot]);
 }
@@ -142,17 +190,19 @@ void takeLevels(Machine& machine) {
 
 }  // namespace
 
-Program recordedOf(const Study& study, std::size_t values,
+Program recordedOf(const Study& study, const Rest* rest, std::size_t values,
                    const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what) {
   const std::vector<std::string> parameters = freeParametersOf(study);
-  const std::size_t given = study.mechanism.stateNames().size();
-  const bool moves = study.analysis != Study::Analysis::kinematics;
+  const bool moves = study.moves();
+  const std::size_t given = rest != nullptr ? rest->remainders() : study.mechanism.stateNames().size();
   const std::size_t states = study.isMotionGiven() ? 1 : moves ? given : 0;
   const auto motion = [&](auto t, const auto& x, const auto& p, auto& y) {
     const std::span<const Recorded> numbers(p);
     Assembly<Recorded> assembly(study.mechanism, parameters, moves ? numbers : numbers.subspan(given));
     if (study.isMotionGiven())
       assembly.setState({}, t);
+    else if (rest != nullptr)
+      putToRest(assembly, rest->at(numbers.first(given), numbers.subspan(given)));
     else
       moves ? assembly.setMotion(x, t) : assembly.setMotion(numbers.first(given));
     std::ranges::copy(what(assembly), y.begin());
@@ -167,14 +217,26 @@ std::vector<Expression> outputExpressions(const Study& study) {
   return expressions;
 }
 
-Motion recordedMotion(const Study& study) {
+std::shared_ptr<const Rest> restOf(const Study& study) {
+  if (study.analysis != Study::Analysis::equilibria) return nullptr;
+  const std::vector<std::string> parameters = freeParametersOf(study);
+  const Box box = boxOf(study, parameters);
+  try {
+    return std::make_shared<const Rest>(study.mechanism, parameters, box, modesIn(study),
+                                        [&](const Program& steps) { return approximated(steps, box); });
+  } catch (...) {
+    refuseMechanism(study);
+  }
+}
+
+Motion recordedMotion(const Study& study, const Rest* rest) {
   Motion motion;
   motion.times = study.times;
   for (const OutputInfo& output : study.outputs) motion.outputNames.push_back(output.name);
   try {
     checkStart(study.mechanism);
     const MemoryBound bound(StatedLimits{}.resolved().memory);  // what a study states is of its runs
-    recordAnalysis(study, freeParametersOf(study), motion);
+    recordAnalysis(study, rest, freeParametersOf(study), motion);
   } catch (...) {
     refuseMechanism(study);
   }
@@ -183,19 +245,30 @@ Motion recordedMotion(const Study& study) {
 
 Machine::Machine(Study of) : study(std::move(of)), freeParameters(freeParametersOf(study)) {
   const double start = processCpuSeconds();
-  motion.motion = recordedMotion(study);
+  rest = restOf(study);
+  motion.motion = recordedMotion(study, rest.get());
+  if (rest) sampled = outputsAtRest(study, *rest, freeParameters);
   cpu = processCpuSeconds() - start;
   takeNumbers(*this);
-  closeLoops(*this);
+  closeFamilies(*this);
   takeCourses(*this);
   takeLevels(*this);
 }
 
 Box Machine::closed(Box other) const {
-  if (remainders.empty()) return other;
-  const RootFamily family = proveRoots(closing, Box(other.begin() + static_cast<std::ptrdiff_t>(states), other.end()));
-  if (family.remainder.empty()) refuseOpenLoops(study, freeParameters, *family.open);
-  for (std::size_t i = 0; i < remainders.size(); ++i) other[remainders[i]] = family.remainder[i];
+  Box parameters(other.begin() + static_cast<std::ptrdiff_t>(states), other.end());
+  auto slot = remainders.begin();
+  for (const Program& newton : closing) {
+    const bool isFirst = slot == remainders.begin();
+    const RootFamily family =
+        proveRoots(newton, parameters, static_cast<int>(freeParameters.size()), isFirst ? 1e-9 : 1.0);
+    if (family.remainder.empty()) {
+      if (rest) refuseUnprovedRest(study, freeParameters, *family.open, isFirst);
+      refuseOpenLoops(study, freeParameters, *family.open);
+    }
+    for (const Interval& each : family.remainder) other[*slot++] = each;
+    if (isFirst) parameters.insert(parameters.end(), family.remainder.begin(), family.remainder.end());
+  }
   return other;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace gamut {
 template <class S>
 class Assembly;
 class Recorded;
+class Rest;
 
 /// An uncertain quantity that is constant.
 struct ConstantQuantity {
@@ -27,6 +29,7 @@ struct ConstantQuantity {
 
 /// Programs of a study take initial values, then free parameters: the uncertain quantities that no state starts with.
 /// All other numbers are constants of the programs. In kinematics, programs have no states: these are parameters too.
+/// In equilibria what the families of Rest leave open stands in their place.
 struct Machine {
   /// Records the study's mechanism. Throws StudyError, with the place in its file, for a mechanism whose motion is not
   /// determined, or something of which has no value or finds no room: the equations of n joints in a chain take some
@@ -44,25 +47,32 @@ struct Machine {
   std::vector<VaryingParameter> varying;    ///< free parameters that vary in time
   std::vector<VaryingQuantity> courses;     ///< what of them the samples take, turning no slower and no faster than so
   double slowest = 0, fastest = 0;          ///< rad/s
-  std::vector<int> remainders;  ///< initial values of coordinates that close loops (FlowOptions::remainders)
-  Program closing;              ///< recordClosing(), of a mechanism with loops
-  UncertainMotion motion;       ///< the equations as samples follow them: what varies in time takes the course that its
-                                ///< number chooses
+  std::vector<int> remainders;   ///< what families leave open (FlowOptions::remainders): initial values of coordinates
+                                 ///< that close loops, or, at rest, all there are
+  std::vector<Program> closing;  ///< their Newton's maps: recordClosing(), or Rest::families()
+  std::shared_ptr<const Rest> rest;  ///< of equilibria
+  Program sampled;                   ///< their outputs, as samples find them
+  UncertainMotion motion;  ///< the equations as samples follow them: what varies in time takes the course that its
+                           ///< number chooses
 
-  /// In which what varies in time is a parameter; kinematics: g of parameters alone.
+  /// In which what varies in time is a parameter; where no time passes: g of parameters alone.
   const Motion& equations() const { return courses.empty() ? motion.motion : motion.switching.motion; }
-  /// A box of other ranges, whose loops are proved to close for all of its values. Throws StudyError where
-  /// they are not.
+  /// A box of other ranges, for all values of which loops are proved to close, or position and modes of rest to exist.
+  /// Throws StudyError where they are not.
   Box closed(Box other) const;
   /// A program of states and free parameters as samples follow it: what varies in time takes its course.
   Program alongCourses(const Program& program) const;
 };
 
-/// The programs of a study's mechanism, as Machine::equations; throws as Machine does.
-Motion recordedMotion(const Study& study);
+/// Of equilibria; throws as Machine does.
+std::shared_ptr<const Rest> restOf(const Study& study);
+
+/// The programs of a study's mechanism, as Machine::equations; throws as Machine does. `rest`: restOf() if it has one.
+Motion recordedMotion(const Study& study, const Rest* rest);
+inline Motion recordedMotion(const Study& study) { return recordedMotion(study, restOf(study).get()); }
 
 /// `what(assembly)`, so many values, at a state and time of a study's motion: takes what Machine::equations take.
-Program recordedOf(const Study& study, std::size_t values,
+Program recordedOf(const Study& study, const Rest* rest, std::size_t values,
                    const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what);
 
 /// What is looked at, each in its unit.

@@ -105,10 +105,29 @@ void refuseJointsAlike(const Study& study) {
 
 }  // namespace
 
-void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part) {
+namespace {
+
+/// " for 'a' in [1, 2], 'b' in …"
+std::string valuesIn(const std::vector<std::string>& freeParameters, const Box& part) {
   std::string values;
-  for (std::size_t i = 0; i < part.size(); ++i)
+  for (std::size_t i = 0; i < std::min(part.size(), freeParameters.size()); ++i)
     values += fmt::format("{}'{}' in {}", i == 0 ? " for " : ", ", freeParameters[i], toString(part[i]));
+  return values;
+}
+
+}  // namespace
+
+void refuseUnprovedRest(const Study& study, const std::vector<std::string>& freeParameters, const Box& part,
+                        bool isPosition) {
+  refuse(study.places.mechanism,
+         fmt::format("{} not proved to exist{}", isPosition ? "a position of rest is" : "all modes at rest are",
+                     valuesIn(freeParameters, part)),
+         isPosition ? "narrower intervals: somewhere in these the position may vanish, or come together with another"
+                    : "narrower intervals, or outputs of other modes: somewhere in these two may come together");
+}
+
+void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part) {
+  const std::string values = valuesIn(freeParameters, part);
   const Mechanism::Closed& first = study.mechanism.loops().front();
   const bool isOne = study.mechanism.loops().size() == 1;
   refuse(study.places.of(first.element),

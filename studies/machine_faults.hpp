@@ -16,6 +16,10 @@ namespace gamut {
 /// Throws a StudyError: loops are not proved to close for values of the free parameters in a part of their box.
 [[noreturn]] void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part);
 
+/// Likewise: a position of rest, or a mode there, is not proved for them.
+[[noreturn]] void refuseUnprovedRest(const Study& study, const std::vector<std::string>& freeParameters,
+                                     const Box& part, bool isPosition);
+
 /// Throws a StudyError if a quantity that varies in time is in the rows that close loops, at the start or elsewhere:
 /// positions would have to follow it at once.
 void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters);

@@ -15,11 +15,11 @@ constexpr const char *text = R"({"type": "string"})", *number = R"({"type": ["nu
 void describeStudy(Settings& s, Study&) {
   s.own({"title", "text", "the file's name"}, text);
   s.own({"analysis",
-         "`\"dynamics\"`; `\"inverse-dynamics\"` (below); or `\"kinematics\"` (the outputs where the mechanism stands "
-         "at first)",
+         "`\"dynamics\"`; `\"inverse-dynamics\"` (below); `\"kinematics\"` (the outputs where the mechanism stands "
+         "at first); or `\"equilibria\"` (where it rests, and how it vibrates there; below)",
          "required"},
-        R"({"enum": ["dynamics", "inverse-dynamics", "kinematics"]})");
-  s.own({"horizon", "end of the motion, s", "required but in kinematics", true}, number);
+        R"({"enum": ["dynamics", "inverse-dynamics", "kinematics", "equilibria"]})");
+  s.own({"horizon", "end of the motion, s", "required where time passes", true}, number);
   s.own({"output_step", "outputs at 0, step, 2 step, … and at the horizon, s", "this or `output_times`", true}, number);
   s.own({"output_times", "list of rising times, s; 0 and the horizon are added", "", true},
         R"({"type": "array", "items": {"type": ["number", "string"]}, "minItems": 1})");

@@ -106,7 +106,7 @@ struct StudyPlaces {
 
 /// The words of a study. What they describe moves as a Machine.
 struct Study {
-  enum class Analysis { kinematics, dynamics, inverseDynamics };
+  enum class Analysis { kinematics, equilibria, dynamics, inverseDynamics };
 
   std::string text;   ///< of the file, word for word
   std::string file;   ///< as it was named
@@ -114,7 +114,7 @@ struct Study {
   NamedTexts tables;  ///< of the CSV files that it names, word for word, by these names
   std::string title;
   Analysis analysis = Analysis::dynamics;
-  double horizon = 0;         ///< s; 0 for kinematics
+  double horizon = 0;         ///< s; 0 where no time passes
   std::vector<double> times;  ///< the output times, s, 0 first, rising, the horizon last
   std::set<std::string, std::less<>> compare{"fuzzy", "interval", "stochastic"};  ///< words of the answers asked for
   Mechanism mechanism;
@@ -142,12 +142,15 @@ struct Study {
 
   /// Its word in files.
   std::string analysisName() const {
-    return analysis == Analysis::kinematics ? "kinematics"
-           : analysis == Analysis::dynamics ? "dynamics"
-                                            : "inverse-dynamics";
+    return analysis == Analysis::kinematics   ? "kinematics"
+           : analysis == Analysis::equilibria ? "equilibria"
+           : analysis == Analysis::dynamics   ? "dynamics"
+                                              : "inverse-dynamics";
   }
+  /// Time passes.
+  bool moves() const { return analysis != Analysis::kinematics && analysis != Analysis::equilibria; }
   /// Time passes, but the motion is given: it has no states.
-  bool isMotionGiven() const { return analysis != Analysis::kinematics && mechanism.stateNames().empty(); }
+  bool isMotionGiven() const { return moves() && mechanism.stateNames().empty(); }
 };
 
 /// The membership of one of so many levels.

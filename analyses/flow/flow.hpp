@@ -206,14 +206,17 @@ class Flow {
 
 /// Range of y = g(t, x, p) over a box (states, then parameters) by polynomials in the uncertain quantities; result[0]
 /// is over the box, result[i] over levels[i-1] (each inside the one before). degree -1: chosen by the number of
-/// quantities. Empty if `cancelled` was set before all was found.
+/// quantities. `remainders`: components that are narrow beside what they are added to, as in FlowOptions. Empty if
+/// `cancelled` was set before all was found.
 std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
                                                 const std::vector<Box>& levels = {}, int degree = -1,
-                                                const std::atomic<bool>* cancelled = nullptr);
+                                                const std::atomic<bool>* cancelled = nullptr,
+                                                const std::vector<int>& remainders = {});
 
 /// Models of these outputs of the image over the box, at the one time t. Null if `cancelled` was set before.
 std::shared_ptr<const FlowModels> modelImage(const Program& g, double t, const Box& box,
                                              const std::vector<int>& modelled, int degree = -1,
-                                             const std::atomic<bool>* cancelled = nullptr);
+                                             const std::atomic<bool>* cancelled = nullptr,
+                                             const std::vector<int>& remainders = {});
 
 }  // namespace gamut

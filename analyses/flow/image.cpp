@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "analyses/flow/embedding.hpp"
@@ -14,6 +15,7 @@
 #include "analyses/flow/series/error_bounds.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
+#include "scalars/recorded.hpp"
 
 namespace gamut {
 
@@ -44,10 +46,11 @@ struct ImagePart {
 /// Throws Cancelled.
 class ImageFinder {
  public:
-  ImageFinder(const Program& g, double t, const Box& box, int degree, const std::atomic<bool>* cancelled)
+  ImageFinder(const Program& g, double t, const Box& box, int degree, const std::atomic<bool>* cancelled,
+              const std::vector<int>& remainders)
       : t_(t),
         box_(box),
-        embedding_(box),
+        embedding_(box, 0, {}, {}, 0, remainders),
         monomials_(monomialsOf(embedding_.symbols, degree)),
         outputs_(g, monomials_, monomials_, {}, cancelled),
         plain_(g),
@@ -349,17 +352,19 @@ std::shared_ptr<const FlowModels> modelsOf(const ImageFinder& image, double t, c
 }  // namespace
 
 Image findImage(const Program& g, double t, const Box& box, const std::vector<Box>& levels,
-                const std::vector<int>& modelled, int degree, const std::atomic<bool>* cancelled, double work) {
+                const std::vector<int>& modelled, int degree, const std::atomic<bool>* cancelled, double work,
+                const std::vector<int>& remainders) {
   requireImage(g, box, degree);
   requireNested(box, levels);
   try {
     std::vector<int> counted = modelled;
     for (int o = 0; o < g.outputs(); ++o)
       if (modelled.empty()) counted.push_back(o);
-    auto found = std::make_unique<ImageFinder>(g, t, box, degree, cancelled);
+    auto found = std::make_unique<ImageFinder>(g, t, box, degree, cancelled, remainders);
     const double unknown = found->unknown(counted);
     if (const int richer = richerDegree(*found->monomials()); degree < 0 && work > 0 && richer > 0 && unknown > enough)
-      if (auto other = std::make_unique<ImageFinder>(g, t, box, richer, cancelled); other->unknown(counted) < unknown)
+      if (auto other = std::make_unique<ImageFinder>(g, t, box, richer, cancelled, remainders);
+          other->unknown(counted) < unknown)
         found = std::move(other);
     ImageFinder& finder = *found;
     finder.bisect(counted, work);
@@ -371,16 +376,64 @@ Image findImage(const Program& g, double t, const Box& box, const std::vector<Bo
   }
 }
 
+Program recordPolynomials(const Program& g, const Box& box, int degree) {
+  constexpr double small = 1e-5;  // of the largest coefficient of what varies
+  constexpr double least = 0x1p-8;
+  requireImage(g, box, degree);
+  // Where the remainder is not bounded over the box, it is over one like it and smaller: of the same coefficients.
+  std::optional<ImageFinder> finder;
+  Box part = box;
+  double share = 1;
+  const auto isKnown = [&] {
+    return std::ranges::none_of(finder->parts().front().polynomial,
+                                [](const std::vector<double>& c) { return c.empty(); });
+  };
+  for (; share >= least; share /= 4) {
+    for (std::size_t i = 0; i < box.size() && share < 1; ++i) {
+      const double middle = midpoint(box[i]);
+      part[i] = middle + Interval(share) * (box[i] - Interval(middle));
+    }
+    finder.emplace(g, 0.0, part, degree, nullptr, std::vector<int>());
+    if (isKnown()) break;
+  }
+  if (!isKnown()) return g;
+  const ImageFinder& image = *finder;
+  const Monomials& monomials = *image.monomials();
+  const std::vector<std::vector<double>>& polynomial = image.parts().front().polynomial;
+  const auto sizeOf = [&](double c, int m) { return std::fabs(c) * std::pow(share, -monomials.grade(m)); };
+  double largest = 0;
+  for (const std::vector<double>& c : polynomial)
+    for (int m = 1; m < monomials.count(); ++m) largest = std::max(largest, sizeOf(c[m], m));
+  return record(0, g.parameters(), g.outputs(), [&](auto, const auto&, const auto& p, auto& y) {
+    std::vector<Recorded> xi(image.embedding().symbols, Recorded(0.0));
+    for (std::size_t i = 0; i < box.size(); ++i)
+      if (const Embedded& e = image.embedding().components[i]; e.symbol >= 0) xi[e.symbol] = (p[i] - e.centre) / e.half;
+    std::vector<Recorded> powers{Recorded(1.0)};
+    for (int m = 1; m < monomials.count(); ++m) {
+      int factor = 0;
+      while (monomials.exponent(m, factor) == 0) ++factor;
+      powers.push_back(powers[monomials.shifted(m, factor, -1)] * xi[factor]);
+    }
+    for (std::size_t o = 0; o < polynomial.size(); ++o) {
+      Recorded sum(polynomial[o][0]);
+      for (int m = 1; m < monomials.count(); ++m)
+        if (sizeOf(polynomial[o][m], m) > small * largest) sum = sum + polynomial[o][m] * powers[m];
+      y[o] = sum;
+    }
+  });
+}
+
 std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
                                                 const std::vector<Box>& levels, int degree,
-                                                const std::atomic<bool>* cancelled) {
-  return findImage(g, t, box, levels, {}, degree, cancelled, 0).ranges;
+                                                const std::atomic<bool>* cancelled,
+                                                const std::vector<int>& remainders) {
+  return findImage(g, t, box, levels, {}, degree, cancelled, 0, remainders).ranges;
 }
 
 std::shared_ptr<const FlowModels> modelImage(const Program& g, double t, const Box& box,
                                              const std::vector<int>& modelled, int degree,
-                                             const std::atomic<bool>* cancelled) {
-  return findImage(g, t, box, {}, modelled, degree, cancelled).models;
+                                             const std::atomic<bool>* cancelled, const std::vector<int>& remainders) {
+  return findImage(g, t, box, {}, modelled, degree, cancelled, imageWork, remainders).models;
 }
 
 }  // namespace gamut

@@ -8,19 +8,46 @@
 #include <vector>
 
 #include "analyses/flow/flow.hpp"
+#include "analyses/flow/image.hpp"
 #include "scalars/program/differentiation.hpp"
 
 namespace gamut {
 namespace {
 
+/// The degree up to which so many symbols have some `most` monomials.
+int degreeOf(const Box& box, int quantities, double most) {
+  constexpr int highest = 10;
+  const auto wide = std::count_if(box.begin(), box.begin() + quantities, [](const Interval& x) { return !isThin(x); });
+  int degree = 1;
+  for (double count = 1.0 + static_cast<double>(wide); degree < highest; ++degree) {
+    count *= static_cast<double>(wide + degree + 1) / (degree + 1);
+    if (count > most) break;
+  }
+  return degree;
+}
+
+constexpr double mostMonomials = 500;
+
+double largestOf(const Box& box) {
+  double largest = 0;
+  for (const Interval& each : box) largest = std::max(largest, magnitude(each));
+  return largest;
+}
+
 class Prover {
  public:
-  Prover(const Program& newton, const Box& parameters)
+  Prover(const Program& newton, const Box& parameters, int quantities, double enough)
       : newton_(newton),
         slopes_(forwardDifferentiated(newton)),
         whole_(parameters),
+        enough_(enough),
         n_(newton.states()),
-        radii_(n_, 0.0) {}
+        quantities_(quantities < 0 ? newton.parameters() : quantities),
+        radii_(n_, 0.0) {
+    for (int i = n_ + quantities_; i < n_ + newton.parameters(); ++i) narrow_.push_back(i);
+    all_ = narrow_;
+    for (int i = 0; i < n_; ++i) all_.push_back(i);
+  }
 
   /// Roots of neighbouring parts are of one family where each lies in what the other's is alone in: else once more,
   /// with boxes of the widest there was.
@@ -43,11 +70,7 @@ class Prover {
 
   struct Part {
     Box parameters, image, delta;
-    double largest() const {
-      double largest = 0;
-      for (const Interval& each : image) largest = std::max(largest, magnitude(each));
-      return largest;
-    }
+    double largest() const { return largestOf(image); }
   };
 
   /// One that is not proved; nothing where all are.
@@ -71,14 +94,13 @@ class Prover {
   /// Halves parts of which much is left open, while that costs little.
   void refine() {
     constexpr int most = 24;
-    constexpr double little = 1e-9;  // rad, m
     for (int i = 0; i < most; ++i) {
       const auto loosest = std::ranges::max_element(parts_, {}, &Part::largest);
       const int widest = widestOf(loosest->parameters);
-      if (widest < 0 || loosest->largest() <= little) return;
+      if (widest < 0 || loosest->largest() <= enough_) return;
       const std::array<Box, 2> halves = halvesOf(loosest->parameters, widest);
       std::optional<Part> lower = prove(halves[0]), upper = prove(halves[1]);
-      if (!lower || !upper) return;
+      if (!lower || !upper || std::max(lower->largest(), upper->largest()) > 0.5 * loosest->largest()) return;
       *loosest = std::move(*lower);
       parts_.push_back(std::move(*upper));
     }
@@ -106,27 +128,14 @@ class Prover {
   int widestOf(const Box& part) const {
     int widest = -1;
     double most = 0x1p-8;
-    for (std::size_t i = 0; i < part.size(); ++i) {
+    for (int i = 0; i < quantities_; ++i) {
       const double share = width(part[i]) / width(whole_[i]);
       if (share > most) {
         most = share;
-        widest = static_cast<int>(i);
+        widest = i;
       }
     }
     return widest;
-  }
-
-  /// The degree up to which so many symbols have some 500 monomials.
-  static int degreeOf(const Box& part) {
-    constexpr double most = 500;
-    constexpr int highest = 10;
-    const auto wide = std::ranges::count_if(part, [](const Interval& x) { return !isThin(x); });
-    int degree = 1;
-    for (double count = 1.0 + static_cast<double>(wide); degree < highest; ++degree) {
-      count *= static_cast<double>(wide + degree + 1) / (degree + 1);
-      if (count > most) break;
-    }
-    return degree;
   }
 
   static Box joined(Box delta, const Box& part) {
@@ -134,9 +143,10 @@ class Prover {
     return delta;
   }
 
-  /// ∂φ/∂δ row by row, for all δ of this box.
-  Box slopesOn(const Box& delta, const Box& part) const {
-    const Box all = encloseImage(slopes_, 0.0, joined(delta, part))[0];
+  /// ∂φ/∂δ row by row, for all δ of this box; without a degree, δ are symbols too.
+  Box slopesOn(const Box& delta, const Box& part, int degree) const {
+    const Box all =
+        encloseImage(slopes_, 0.0, joined(delta, part), {}, degree, nullptr, degree < 0 ? narrow_ : all_)[0];
     return {all.begin() + n_, all.end()};
   }
 
@@ -154,30 +164,37 @@ class Prover {
 
   /// Nothing where it is not proved.
   std::optional<Part> prove(const Box& part) {
-    const Box at0 = encloseImage(newton_, 0.0, joined(Box(n_, Interval(0.0)), part), {}, degreeOf(part))[0];
+    const Box at0 = encloseImage(newton_, 0.0, joined(Box(n_, Interval(0.0)), part), {},
+                                 degreeOf(part, quantities_, mostMonomials), nullptr, narrow_)[0];
     if (!isKnown(at0)) return {};
     std::vector<double> r = radii_;
     const auto widen = [&](const Box& image) {  // what is 0 gets room to map into too
-      double largest = 0;
-      for (const Interval& each : image) largest = std::max(largest, magnitude(each));
-      for (int k = 0; k < n_; ++k) r[k] = std::max({r[k], 2 * magnitude(image[k]), 0x1p-10 * largest, 0x1p-1000});
+      const double least = 0x1p-10 * largestOf(image);
+      for (int k = 0; k < n_; ++k) r[k] = std::max({r[k], 2 * magnitude(image[k]), least, 0x1p-1000});
     };
     widen(at0);
     constexpr int tries = 12;
+    constexpr double narrow = 1e-5;   // where symbols would tell little more
+    constexpr double hopeless = 100;  // times what it began with
+    std::vector<int> degrees{std::min(degreeOf(part, quantities_, mostMonomials), 3)};
+    if (std::ranges::any_of(r, [](double radius) { return radius > narrow; })) degrees.push_back(-1);
+    auto degree = degrees.begin();
     for (int i = 0; i < tries; ++i) {
       Box delta;
       for (const double radius : r) delta.emplace_back(-radius, radius);
-      const Box slopes = slopesOn(delta, part);
-      if (!isKnown(slopes)) return {};
-      const Box image = imageOf(at0, slopes, delta);
-      if (mapsInside(image, r) && contracts(slopes, r)) {
+      const Box slopes = slopesOn(delta, part, *degree);
+      const Box image = isKnown(slopes) ? imageOf(at0, slopes, delta) : slopes;
+      if (isKnown(image) && mapsInside(image, r) && contracts(slopes, r)) {
         radii_ = r;
-        // Once more, of the image: φ has no slope where δ is 0.
-        Box around0;
+        Box around0;  // once more, of the image
         for (const Interval& each : image) around0.push_back(hull(each, Interval(0.0)));
-        return Part{part, imageOf(at0, slopesOn(around0, part), around0), delta};
+        return Part{part, imageOf(at0, slopes, around0), delta};
       }
-      if (!isKnown(image)) return {};
+      if (degree + 1 != degrees.end()) {
+        ++degree;
+        continue;
+      }
+      if (!isKnown(image) || largestOf(image) > hopeless * largestOf(at0)) return {};
       widen(image);
     }
     return {};
@@ -201,13 +218,21 @@ class Prover {
   const Program& newton_;
   Program slopes_;
   Box whole_;
-  int n_;
-  std::vector<double> radii_;  // of the box about 0, the widest so far
+  double enough_;
+  int n_, quantities_;
+  std::vector<int> narrow_, all_;  // what carries no symbol: parameters that are none, δ too
+  std::vector<double> radii_;      // of the box about 0, the widest so far
   std::vector<Part> parts_;
 };
 
 }  // namespace
 
-RootFamily proveRoots(const Program& newton, const Box& parameters) { return Prover(newton, parameters).prove(); }
+RootFamily proveRoots(const Program& newton, const Box& parameters, int quantities, double enough) {
+  return Prover(newton, parameters, quantities, enough).prove();
+}
+
+Program approximated(const Program& steps, const Box& parameters) {
+  return recordPolynomials(steps, parameters, degreeOf(parameters, steps.parameters(), mostMonomials));
+}
 
 }  // namespace gamut

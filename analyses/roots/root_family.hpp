@@ -19,7 +19,13 @@ struct RootFamily {
   std::optional<Box> open;  ///< a part of the box for which nothing is proved
 };
 
-/// `newton`: φ, whose n states are δ and whose n outputs its image, with the parameters p.
-RootFamily proveRoots(const Program& newton, const Box& parameters);
+/// `newton`: φ, whose n states are δ and whose n outputs its image, with the parameters p. Of these the first
+/// `quantities` (-1: all) are; others are narrow, as remainders of other roots are. Parts of the box are tried until
+/// δ is at most `enough`, while that costs little.
+RootFamily proveRoots(const Program& newton, const Box& parameters, int quantities = -1, double enough = 1e-9);
+
+/// c(p): polynomials near to what Newton's steps, a program of parameters, come to. These steps follow where a root
+/// goes, but each lets errors of polynomials grow that bound it.
+Program approximated(const Program& steps, const Box& parameters);
 
 }  // namespace gamut

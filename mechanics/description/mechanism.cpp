@@ -238,6 +238,13 @@ void Mechanism::addMeasured(const std::string& name, const std::string& unit, co
   measured_.add({name, unit, of, isSolved});
 }
 
+void Mechanism::measureModes() {
+  for (int mode = 1; mode <= degreesOfFreedom(); ++mode) {
+    addMeasured("frequency." + std::to_string(mode), "Hz", "modes", true);
+    addMeasured("damping." + std::to_string(mode), "1", "modes", true);
+  }
+}
+
 std::string Mechanism::accelerationOf(const std::string& speed) {
   for (std::size_t at = speed.rfind("rate"); at != std::string::npos && at > 0; at = speed.rfind("rate", at - 1))
     if (speed[at - 1] == '.' || speed[at - 1] == '_')

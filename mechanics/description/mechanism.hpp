@@ -87,6 +87,9 @@ class Mechanism {
   std::vector<Fault> faults(const Described& element, const std::map<std::string, Interval>& ranges) const;
   /// Throws if there is a joint that no mass hangs on: its motion would not be determined.
   void checkMasses() const;
+  /// Natural frequencies and damping ratios at rest are quantities too: frequency.1 …, damping.1 … of so many modes as
+  /// there are speeds (mechanics/rest.hpp).
+  void measureModes();
   /// An expression in which what has a name here is meant by it. Throws UnitError.
   Expression parse(std::string_view text) const;
   /// The dimension of an expression of time, parameters and whatever can be measured. Throws UnknownName or UnitError.

@@ -62,7 +62,8 @@ class SettingsReader final : public Settings {
   const toml::node* find(const Key& key) const {
     const toml::node* node = section_.find(key.name);
     if (node != nullptr && key.isOfMotion && !isMotion_)
-      source_.fail(*node, fmt::format("{} has no meaning in kinematics", section_.nameOf(key.name)), "no such key");
+      source_.fail(*node, fmt::format("{} has no meaning where no time passes", section_.nameOf(key.name)),
+                   "no such key");
     return node;
   }
 
@@ -76,7 +77,7 @@ class SettingsReader final : public Settings {
 TomlSection readSettings(const TomlSource& source, const toml::table& table, std::string_view name, Study& study) {
   const StudySection words = studySection(study, name);
   TomlSection section(source, table, words.name, keysOf([&](Settings& settings) { words.describe(settings, study); }));
-  SettingsReader reader(section, study.analysis != Study::Analysis::kinematics);
+  SettingsReader reader(section, study.moves());
   words.describe(reader, study);
   return section;
 }

@@ -63,6 +63,7 @@ class StudyReader {
     noteUnitsOfMasses();
     checkMotion(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
+    if (study_.analysis == Study::Analysis::equilibria) study_.mechanism.measureModes();
     readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), places_, shapes,
                   study_);
     readDependence(source_, tables(file, "dependence"), study_);
@@ -104,15 +105,17 @@ class StudyReader {
     study_.analysis = Study::Analysis::dynamics;  // until it is known, all keys have a meaning
     const TomlSection section = readSettings(source_, table, "study", study_);
     study_.title = section.text("title", printable(std::filesystem::path(study_.file).stem().string()));
-    const toml::node& analysis = section.require("analysis", "\"dynamics\", \"inverse-dynamics\" or \"kinematics\"");
+    const toml::node& analysis =
+        section.require("analysis", "\"dynamics\", \"inverse-dynamics\", \"kinematics\" or \"equilibria\"");
     const std::string word =
-        source_.asChoice(analysis, "study.analysis", {"dynamics", "inverse-dynamics", "kinematics"});
-    for (const auto each : {Study::Analysis::dynamics, Study::Analysis::inverseDynamics, Study::Analysis::kinematics}) {
+        source_.asChoice(analysis, "study.analysis", {"dynamics", "inverse-dynamics", "kinematics", "equilibria"});
+    for (const auto each : {Study::Analysis::dynamics, Study::Analysis::inverseDynamics, Study::Analysis::kinematics,
+                            Study::Analysis::equilibria}) {
       study_.analysis = each;
       if (study_.analysisName() == word) break;
     }
     readSettings(source_, table, "study", study_);
-    if (study_.analysis == Study::Analysis::kinematics)
+    if (!study_.moves())
       study_.times = {0.0};
     else
       readTimes(section);
@@ -250,7 +253,11 @@ class StudyReader {
   /// Throws if nothing can move where time passes.
   void checkMotion(const toml::node& mechanism) const {
     const Mechanism& m = study_.mechanism;
-    if (study_.analysis != Study::Analysis::kinematics && m.stateNames().empty() && m.coordinates().empty())
+    const bool isAtRest = study_.analysis == Study::Analysis::equilibria;
+    if (isAtRest && m.stateNames().empty())
+      source_.fail(mechanism, "the mechanism has nothing that could come to rest",
+                   "a joint without a drive, or a state, in [[mechanism.element]]");
+    if (study_.moves() && m.stateNames().empty() && m.coordinates().empty())
       source_.fail(mechanism, "the mechanism has no joint and no state, so that nothing can move",
                    "a joint or a state in [[mechanism.element]], or analysis = \"kinematics\", which needs none");
   }

@@ -359,6 +359,11 @@ class UncertainReader {
 
   /// `varies = "freely"`, or a `rate` that is the most it changes by in a second.
   void readCourse(const TomlSection& section, const toml::node& quantity, UncertainQuantity& result) const {
+    if (study_.analysis == Study::Analysis::equilibria &&
+        study_.mechanism.initialValues().find(result.quantity) != nullptr)
+      source_.fail(quantity,
+                   fmt::format("'{}' is where rest is looked for first, which nothing depends on", result.quantity),
+                   "a parameter or a number of an element");
     const toml::node *varies = section.find("varies"), *rate = section.find("rate");
     if (varies == nullptr && rate == nullptr) return;
     const toml::node& first = varies != nullptr ? *varies : *rate;
@@ -368,8 +373,9 @@ class UncertainReader {
     for (const char* key : {"distribution", "membership"})
       if (const toml::node* node = section.find(key))
         source_.fail(*node, fmt::format("what varies in time has no uncertain.{}", key), "an interval alone");
-    if (study_.analysis == Study::Analysis::kinematics)
-      source_.fail(first, "in kinematics nothing varies in time", "analysis = \"dynamics\"");
+    if (!study_.moves())
+      source_.fail(first, fmt::format("in {} nothing varies in time", study_.analysisName()),
+                   "analysis = \"dynamics\"");
     const std::vector<std::string> states = study_.mechanism.stateNames();
     if (std::ranges::find(states, result.quantity) != states.end())
       source_.fail(quantity, fmt::format("'{}' is an initial value, which cannot vary in time", result.quantity),

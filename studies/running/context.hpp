@@ -28,7 +28,7 @@ struct Run {
   /// What enclosure and samples took: of this, others have their shares.
   double basis() const;
   bool isEnclosed() const { return study.asksFor<IntervalResult>() || study.asksFor<FuzzyResult>(); }
-  bool moves() const { return study.analysis != Study::Analysis::kinematics; }
+  bool moves() const { return study.moves(); }
 
   const Machine& machine;
   const Study& study;  ///< the machine's

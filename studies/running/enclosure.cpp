@@ -127,7 +127,7 @@ class Encloser {
     std::vector<int> modelled = marginOutputs(study_);
     std::ranges::copy(plainOutputs(study_), std::back_inserter(modelled));
     const Image image = findImage(run_.machine.motion.motion.g, 0.0, run_.machine.box, run_.machine.levels, modelled,
-                                  study_.flow.degree, run_.watch.stop());
+                                  study_.flow.degree, run_.watch.stop(), imageWork, run_.machine.remainders);
     std::vector<Interval> enclosure = direct;
     const auto narrow = [&](std::size_t which, Bounds& bounds) {
       for (std::size_t j = 0; j < enclosure.size() && !image.ranges.empty(); ++j) {

@@ -209,7 +209,8 @@ void enclosePlaces(const Run& run, const Seen& seen, const Tube& tube, Places& p
 
 void enclosePlaces(const Run& run, const Seen& seen, Places& places) {
   if (!seen.isEnclosed) return;
-  const auto images = encloseImage(seen.positions, 0.0, run.machine.box, {}, run.study.flow.degree, run.watch.stop());
+  const auto images = encloseImage(seen.positions, 0.0, run.machine.box, {}, run.study.flow.degree, run.watch.stop(),
+                                   run.machine.remainders);
   std::vector<Interval> bounds = BoxValues(seen.positions, run.machine.box).over(Interval(0.0), {});
   for (std::size_t k = 0; k < bounds.size() && !images.empty(); ++k)
     bounds[k] = intersection(bounds[k], images.front()[k]);

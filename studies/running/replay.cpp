@@ -28,7 +28,7 @@ ReplayedSample replay(const Machine& machine, const Results& results, std::size_
   const UncertainMotion motion = withSwitchingOf(results, machine.motion);
   const auto samples = static_cast<std::size_t>(results.stochastic.samples);
   SampleBlock block = replaySample(motion, ensembleOptions(machine, results, samples), number);
-  if (machine.study.analysis == Study::Analysis::kinematics) moveSamples(machine, block);
+  if (!machine.study.moves()) moveSamples(machine, block);
 
   ReplayedSample sample;
   const Proved proved{results.interval.at, results.fuzzy.outer, enclosedTimes(results)};
@@ -57,7 +57,7 @@ ReplayedSample replayViolation(const Machine& machine, const Results& results, c
   }
   SampleBlock block =
       integrateValues(withSwitchingOf(results, machine.motion), ensembleOptions(machine, results, 1), values);
-  if (study.analysis == Study::Analysis::kinematics) moveSamples(machine, block);
+  if (!study.moves()) moveSamples(machine, block);
   ReplayedSample sample;
   take(block, study, sample);
   return sample;

@@ -1,10 +1,12 @@
 // How the samples of a study are taken, by its run and by a replay of one of them alike.
 #pragma once
 
+#include <concepts>
 #include <span>
 #include <vector>
 
 #include "mechanics/assembly.hpp"
+#include "scalars/evaluation/evaluate.hpp"
 #include "studies/machine.hpp"
 #include "studies/results/results.hpp"
 
@@ -18,9 +20,11 @@ EnsembleOptions ensembleOptions(const Machine& machine, const Results& results, 
 /// std::invalid_argument where these make no sense.
 UncertainMotion withSwitchingOf(const Results& results, UncertainMotion motion);
 
-/// Kinematics: the study's outputs by the assembly itself instead of its recording. `numbers` as Machine::box.
+/// Where no time passes: the study's outputs by the assembly itself instead of its recording, but for those at rest.
+/// `numbers` as Machine::box.
 template <class S>
 std::vector<S> assembledOutputs(const Machine& machine, const std::vector<S>& numbers) {
+  if (machine.rest) return evaluate<S>(std::same_as<S, Samples> ? machine.sampled : machine.equations().g, {}, numbers);
   const std::span<const S> values(numbers);
   Assembly<S> assembly(machine.study.mechanism, machine.freeParameters, values.subspan(machine.states));
   assembly.setMotion(values.first(machine.states));

@@ -80,10 +80,9 @@ class Finder {
   std::string violatedAtNominal() const {
     Box box = machine_.box;
     for (const auto [number, slot] : machine_.constants) box[slot] = study_.uncertain[number].uncertain.nominal;
-    const auto models = study_.analysis == Study::Analysis::kinematics
-                            ? modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_), study_.flow.degree,
-                                         options_.cancelled)
-                            : modelMargins(machine_, ownOptions(), box).models();
+    const auto models = !study_.moves() ? modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_),
+                                                     study_.flow.degree, options_.cancelled, machine_.remainders)
+                                        : modelMargins(machine_, ownOptions(), box).models();
     for (const Requirement& requirement : study_.requirements)
       if (models && models->at.size() > rowOf(study_.times, requirement.demand.until) &&
           Cells(*models, questionOf(study_, requirement, models->at.size())).whole()->verdict() ==
@@ -112,9 +111,9 @@ class Finder {
     std::string why;
     try {
       box = machine_.closed(std::move(box));
-      if (study_.analysis == Study::Analysis::kinematics) {
-        models =
-            modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled);
+      if (!study_.moves()) {
+        models = modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_), study_.flow.degree,
+                            options_.cancelled, machine_.remainders);
       } else {
         const Tube tube = modelMargins(machine_, ownOptions(), box);
         models = tube.models();

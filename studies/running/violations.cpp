@@ -113,9 +113,9 @@ class ThinFlows {
   }
 
   ThinMargins marginsOf(const ThinMotion& of, const std::vector<double>& times) {
-    if (run_.study.analysis == Study::Analysis::kinematics)
+    if (!run_.study.moves())
       return {modelImage(run_.machine.equations().g, 0.0, of.box, marginOutputs(run_.study), run_.study.flow.degree,
-                         run_.watch.stop()),
+                         run_.watch.stop(), run_.machine.remainders),
               {0.0}};
     FlowOptions options = options_;
     options.varying = of.varying;

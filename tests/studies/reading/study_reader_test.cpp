@@ -924,11 +924,11 @@ constexpr BadStudy badStudies[] = {
     {"title = \"Pendulum\"", "title = \"  \"", "s.toml:2:9: study.title is empty; expected text"},
     {"analysis = \"dynamics\"", "analysis = \"dynamic\"",
      "s.toml:3:12: study.analysis is \"dynamic\"; expected 'dynamics'? (one of: dynamics, inverse-dynamics, "
-     "kinematics)"},
+     "kinematics, equilibria)"},
     {"analysis = \"dynamics\"", "",
-     "s.toml:1:1: 'study.analysis' is missing; expected \"dynamics\", \"inverse-dynamics\" or \"kinematics\""},
+     "s.toml:1:1: 'study.analysis' is missing; expected \"dynamics\", \"inverse-dynamics\", \"kinematics\" or \"equilibria\""},
     {"analysis = \"dynamics\"", "analysis = \"kinematics\"",
-     "s.toml:4:11: study.horizon has no meaning in kinematics; expected no such key"},
+     "s.toml:4:11: study.horizon has no meaning where no time passes; expected no such key"},
     {"horizon = 0.5", "", "s.toml:1:1: 'study.horizon' is missing; expected the time to be reached, in s"},
     {"horizon = 0.5", "horizon = -1", "s.toml:4:11: study.horizon is not positive; expected a time above 0 s"},
     {"horizon = 0.5", "horizon = \"1 m\"",
@@ -1593,12 +1593,12 @@ TEST(StudyReader, RefusesInKinematicsWhatOnlyAMotionHas) {
     const std::string name(key, std::string_view(key).find(' '));
     EXPECT_EQ(messageOf(text + "[interval]\n" + key + "\n"), "s.toml:42:" + std::to_string(name.size() + 4) +
                                                                  ": interval." + name +
-                                                                 " has no meaning in kinematics; expected no such key");
+                                                                 " has no meaning where no time passes; expected no such key");
   }
   EXPECT_EQ(messageOf(text + "[interval]\ndegree = 3\n"), "it was read");
   for (const char* times : {"0", "3", "[\"1 s\"]"})
     EXPECT_EQ(messageOf(text + "[distribution]\ntimes = " + times + "\n"),
-              "s.toml:42:9: distribution.times has no meaning in kinematics; expected no such key");
+              "s.toml:42:9: distribution.times has no meaning where no time passes; expected no such key");
   EXPECT_EQ(messageOf(text + "[distribution]\ngap = 0.01\n"), "it was read");
 }
 

@@ -1,0 +1,277 @@
+// Studies of where a mechanism rests and how it vibrates there: enclosures against closed forms and Sturm's counts in
+// 128 bits, for any number of masses, and what is refused.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "analyses/samples/arbiter.hpp"
+#include "studies/machine.hpp"
+#include "studies/running/run.hpp"
+#include "studies/study.hpp"
+#include "tests/analyses/reference.hpp"
+#include "tests/mechanics/four_bar.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::Points;
+using testing::Vector;
+
+const Precise turn = 2 * acos(Precise(-1));
+
+Machine machineOf(const std::string& text) { return Machine(readStudyText(text, "s.toml")); }
+
+std::string studyOf(const std::string& mechanism, const std::string& outputs, const std::string& compare = "") {
+  return "[study]\nanalysis = \"equilibria\"\n" + (compare.empty() ? "" : "compare = [" + compare + "]\n") +
+         "[stochastic]\nsamples = 64\n[mechanism]\n" + mechanism + outputs;
+}
+
+std::string element(const std::string& type, const std::string& name, const std::string& keys) {
+  return "[[mechanism.element]]\ntype = \"" + type + "\"\nname = \"" + name + "\"\n" + keys + "\n";
+}
+
+std::string hinge(const std::string& name, const std::string& from, const std::string& to,
+                  const std::string& initial = "0") {
+  return element("revolute", name,
+                 "from = \"" + from + "\"\nto = \"" + to + "\"\naxis = \"z\"\ninitial = { angle = " + initial + " }");
+}
+
+std::string uncertain(const std::string& quantity, const std::string& interval) {
+  return "[[uncertain]]\nquantity = \"" + quantity + "\"\ninterval = \"" + interval + "\"\n";
+}
+
+std::string output(const std::string& quantity) { return "[[output]]\nquantity = \"" + quantity + "\"\n"; }
+
+std::string frequencies(int many) {
+  std::string text;
+  for (int mode = 1; mode <= many; ++mode) text += output("frequency." + std::to_string(mode));
+  return text;
+}
+
+Interval found(const Results& results, std::size_t output) {
+  return {results.interval.at.lower(0, output), results.interval.at.upper(0, output)};
+}
+
+/// Of free parameters, corners and points inside in turn.
+Vector point(Points& points, const Machine& machine, int number) {
+  const Box box(machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end());
+  return number % 2 == 0 ? points.corner(box) : points.inside(box);
+}
+
+/// Masses in a row, of (10 + i)/10 kg, from the wall on at springs of k1, k2, … = 110, 120, … N/m.
+std::string chain(int many, const std::string& tolerance, const std::string& outputs) {
+  std::string parameters = "parameters = { ", elements, uncertainties, before = "inertial";
+  for (int i = 1; i <= many; ++i) {
+    const std::string number = std::to_string(i), frame = "F" + number;
+    parameters += (i > 1 ? ", k" : "k") + number + " = \"" + std::to_string(100 + 10 * i) + " N/m\"";
+    elements += element("prismatic", "J" + number, "from = \"" + before + "\"\nto = \"" + frame + "\"\naxis = \"x\"") +
+                element("mass", "m" + number,
+                        "at = \"" + frame + "\"\nmass = \"" + std::to_string(100 + 10 * i) + "/100 kg\"") +
+                element("joint-spring", "S" + number, "joint = \"J" + number + "\"\nstiffness = \"k" + number + "\"");
+    uncertainties += uncertain("k" + number, tolerance);
+    before = frame;
+  }
+  return studyOf(parameters + " }\n" + elements + uncertainties, outputs);
+}
+
+/// Where the kth of a chain's ω² lies, by how many pivots of K − ω² M are negative (J. W. Givens, 1954).
+Precise squareOf(const Vector& stiffness, int k) {
+  const auto many = static_cast<int>(stiffness.size());
+  const auto below = [&](const Precise& square) {
+    int count = 0;
+    Precise pivot(1);
+    for (int i = 0; i < many; ++i) {
+      const Precise next = i + 1 < many ? stiffness[i + 1] : Precise(0);
+      const Precise before = i > 0 ? Precise(stiffness[i] * stiffness[i] / pivot) : Precise(0);
+      pivot = stiffness[i] + next - square * Precise(110 + 10 * i) / 100 - before;
+      count += pivot < 0 ? 1 : 0;
+    }
+    return count;
+  };
+  Precise low(0), high(1e6);
+  for (int i = 0; i < 130; ++i) {
+    const Precise middle = (low + high) / 2;
+    (below(middle) >= k ? high : low) = middle;
+  }
+  return low;
+}
+
+class Chains : public ::testing::TestWithParam<std::tuple<int, const char*>> {};
+
+TEST_P(Chains, VibrateAsTheirPencilsSay) {
+  const auto [many, tolerance] = GetParam();
+  const int asked = std::min(many, 3);
+  const Machine machine = machineOf(chain(many, tolerance, frequencies(asked)));
+  const Results results = run(machine, {});
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+  Points points;
+  for (int number = 0; number < 20; ++number) {
+    const Vector stiffness = point(points, machine, number);
+    for (int k = 1; k <= asked; ++k)
+      EXPECT_THAT(found(results, k - 1), testing::Encloses(Precise(sqrt(squareOf(stiffness, k)) / turn)))
+          << k << " of " << many;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfMasses, Chains,
+                         ::testing::Combine(::testing::Values(1, 2, 3),
+                                            ::testing::Values("± 0.001 %", "± 5 %", "± 15 %")));
+INSTANTIATE_TEST_SUITE_P(OfManyMasses, Chains,
+                         ::testing::Combine(::testing::Values(10), ::testing::Values("± 0.001 %")));
+
+/// Of the extreme corners: all springs soft, all stiff.
+TEST(Equilibria, AreAsTightAsTheirExtremeValues) {
+  constexpr int asked = 3;
+  const Results results = run(machineOf(chain(10, "± 5 %", frequencies(asked))), {});
+  Vector soft, stiff;
+  for (int i = 1; i <= 10; ++i) {
+    soft.push_back(Precise(100 + 10 * i) * 95 / 100);
+    stiff.push_back(Precise(100 + 10 * i) * 105 / 100);
+  }
+  for (int k = 1; k <= asked; ++k) {
+    const Precise least = sqrt(squareOf(soft, k)) / turn, most = sqrt(squareOf(stiff, k)) / turn;
+    EXPECT_LE(Precise(width(found(results, k - 1))), Precise(1.02) * (most - least)) << k;
+  }
+}
+
+const std::string pendulum = "gravity = [0, \"-9.81\", 0]\nparameters = { l = \"0.5 m\", c = \"0.2 N m s/rad\" }\n" +
+                             hinge("A", "inertial", "K", "\"-80 deg\"") +
+                             element("link", "rod", "from = \"K\"\nto = \"P\"\nvector = [\"l\", 0, 0]") +
+                             element("mass", "bob", "at = \"P\"\nmass = 2") +
+                             element("joint-spring", "resistance", "joint = \"A\"\ndamping = \"c\"");
+
+/// ω₀² = g/l, ζ = c/(2 m l² ω₀)
+TEST(Equilibria, OfAPendulumAreItsClosedForm) {
+  const Machine machine = machineOf(studyOf(pendulum + uncertain("l", "± 5 %") + uncertain("c", "± 15 %"),
+                                            output("A.angle") + output("frequency.1") + output("damping.1")));
+  const Results results = run(machine, {});
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+  EXPECT_LE(results.comparison.maximum, 1.02);
+  Points points;
+  for (int number = 0; number < 40; ++number) {
+    const Vector p = point(points, machine, number);
+    const Precise own = sqrt(Precise("9.81") / p[0]);
+    EXPECT_THAT(found(results, 0), testing::Encloses(Precise(-turn / 4)));
+    EXPECT_THAT(found(results, 1), testing::Encloses(Precise(own / turn)));
+    EXPECT_THAT(found(results, 2), testing::Encloses(Precise(p[1] / (4 * p[0] * p[0] * own))));
+  }
+}
+
+TEST(Equilibria, OfThinNumbersAreKnownToTheRounding) {
+  const Results results =
+      run(machineOf(studyOf(pendulum, output("A.angle") + output("frequency.1") + output("damping.1"))), {});
+  for (std::size_t j = 0; j < 3; ++j) EXPECT_LE(width(found(results, j)), 1e-14) << j;
+}
+
+/// Two that do not know of each other: the slower is now this, now that.
+TEST(Equilibria, KeepsApartWhatComesTogether) {
+  const std::string one = element("prismatic", "X", "from = \"inertial\"\nto = \"A\"\naxis = \"x\"") +
+                          element("mass", "a", "at = \"A\"\nmass = 1") +
+                          element("joint-spring", "sx", "joint = \"X\"\nstiffness = \"k\""),
+                    other = element("prismatic", "Y", "from = \"inertial\"\nto = \"B\"\naxis = \"y\"") +
+                            element("mass", "b", "at = \"B\"\nmass = 1") +
+                            element("joint-spring", "sy", "joint = \"Y\"\nstiffness = \"l\"");
+  const Machine machine = machineOf(
+      studyOf("parameters = { k = 100, l = 100 }\n" + one + other + uncertain("k", "± 10 %") + uncertain("l", "± 5 %"),
+              frequencies(2)));
+  const Results results = run(machine, {});
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+  Points points;
+  for (int number = 0; number < 40; ++number) {
+    const Vector p = point(points, machine, number);
+    EXPECT_THAT(found(results, 0), testing::Encloses(Precise(sqrt(std::min(p[0], p[1])) / turn)));
+    EXPECT_THAT(found(results, 1), testing::Encloses(Precise(sqrt(std::max(p[0], p[1])) / turn)));
+  }
+}
+
+/// Of a linkage that hangs: ω² = −∂θ̈/∂θ.
+TEST(Equilibria, OfALoopAreThoseOfItsMotion) {
+  using testing::fourBarByHand;
+  const auto link = [](const std::string& name, const std::string& from, const std::string& to,
+                       const std::string& length) {
+    return element("link", name, "from = \"" + from + "\"\nto = \"" + to + "\"\nvector = [\"" + length + "\", 0, 0]");
+  };
+  const std::string loop =
+      "gravity = [0, \"-9.81\", 0]\nparameters = { a = \"0.3 m\", b = \"0.8 m\", c = \"0.6 m\", d = \"0.9 m\" }\n" +
+      hinge("A", "inertial", "K1", "4") +
+      element("mass", "crank",
+              "at = \"K1\"\nmass = 1\ncentre = [\"0.15\", 0, 0]\ninertia = [\"0.0075\", \"0.0075\", \"0.0075\"]") +
+      link("ab", "K1", "PB", "a") + hinge("B", "PB", "K2", "-2.8") +
+      element("mass", "coupler",
+              "at = \"K2\"\nmass = 2\ncentre = [\"0.4\", \"0.1\", 0]\ninertia = [\"0.1\", \"0.1\", \"0.1\"]") +
+      link("bc", "K2", "C1", "b") + link("ground", "inertial", "PD", "d") + hinge("D", "PD", "K3", "1.9") +
+      element("mass", "rocker",
+              "at = \"K3\"\nmass = 1.5\ncentre = [\"0.3\", 0, 0]\ninertia = [\"0.05\", \"0.05\", \"0.05\"]") +
+      link("dc", "K3", "C2", "c") + element("closure", "C", "as = \"pin\"\nfrom = \"C2\"\nto = \"C1\"");
+  const Machine machine =
+      machineOf(studyOf(loop + uncertain("a", "± 1 %") + uncertain("d", "± 1 %"), output("A.angle") + frequencies(1)));
+  const Results results = run(machine, {});
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+  Points points;
+  for (int number = 0; number < 20; ++number) {
+    const Vector p = point(points, machine, number);
+    const auto acceleration = [&](const Precise& angle) {
+      return fourBarByHand<Precise>(angle, Precise(0), {p[0], Precise("0.8"), Precise("0.6"), p[1]},
+                                    [](const char* decimal) { return Precise(decimal); })
+          .acceleration;
+    };
+    Precise low = found(results, 0).lower() - 0.1, high = found(results, 0).upper() + 0.1;
+    ASSERT_GT(acceleration(low), 0);
+    ASSERT_LT(acceleration(high), 0);
+    for (int i = 0; i < 110; ++i) {
+      const Precise middle = (low + high) / 2;
+      (acceleration(middle) > 0 ? low : high) = middle;
+    }
+    EXPECT_THAT(found(results, 0), testing::Encloses(low));
+    const Precise step("1e-9");  // an error of step² and one of 1e-34/step
+    const Precise square = (acceleration(low - step) - acceleration(low + step)) / (2 * step);
+    EXPECT_THAT(found(results, 1), testing::Encloses(Precise(sqrt(square) / turn)));
+  }
+}
+
+TEST(Equilibria, MeetRequirements) {
+  const std::string text = studyOf(pendulum + uncertain("l", "± 5 %"), frequencies(1)) +
+                           "[[requirement]]\nname = \"slow\"\nalways = \"frequency.1 < 0.75 Hz\"\n" +
+                           "[[requirement]]\nname = \"fast\"\nalways = \"frequency.1 > 0.7 Hz\"\n";
+  const Results results = run(machineOf(text), {});
+  ASSERT_EQ(results.requirements.size(), 2);
+}
+
+std::string refusalOf(const std::string& text) {
+  try {
+    run(machineOf(text), {});
+  } catch (const StudyError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Equilibria, SayWhatHasNone) {
+  const std::string bob = element("mass", "bob", "at = \"K\"\nmass = 2\ncentre = [1, 0, 0]"), asked = output("A.angle");
+  EXPECT_THAT(refusalOf(studyOf(hinge("A", "inertial", "K") + bob, asked)),
+              HasSubstr("nothing holds 'A.angle' where it rests"));
+  EXPECT_THAT(refusalOf(studyOf("gravity = [0, \"-9.81\", 0]\n" + hinge("A", "inertial", "K") + bob +
+                                    element("joint-force", "M", "joint = \"A\"\nforce = \"30 N m\""),
+                                asked)),
+              HasSubstr("no position of rest is found"));
+  const std::string held =
+      hinge("A", "inertial", "K") + bob + element("joint-spring", "S", "joint = \"A\"\nstiffness = 5");
+  EXPECT_THAT(
+      refusalOf(studyOf(held + element("joint-force", "M", "joint = \"A\"\nforce = \"3 N m * sin(t/(1 s))\""), asked)),
+      HasSubstr("follow time"));
+  EXPECT_THAT(refusalOf(studyOf(held + element("joint-friction", "R", "joint = \"A\"\ncoulomb = 1"), asked)),
+              HasSubstr("jumps"));
+  EXPECT_THAT(refusalOf(studyOf(held, asked + output("frequency.2"))), HasSubstr("frequency.2"));
+  EXPECT_THAT(refusalOf(studyOf(held + uncertain("A.angle", "± 0.1"), asked)),
+              HasSubstr("'A.angle' is where rest is looked for first"));
+  EXPECT_THAT(refusalOf(studyOf("gravity = [0, \"-9.81\", 0]\n" + hinge("A", "inertial", "K", "\"90 deg\"") + bob,
+                                asked + output("frequency.1"))),
+              HasSubstr("at rest 0 of 1 modes oscillate"));
+}
+
+}  // namespace
+}  // namespace gamut
