@@ -1,0 +1,333 @@
+#include "analyses/roots/root_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "scalars/program/differentiation.hpp"
+#include "scalars/recorded.hpp"
+
+namespace gamut {
+namespace {
+
+std::vector<int> numbersOf(const Box& parameters, bool thin) {
+  std::vector<int> numbers;
+  for (int i = 0; i < static_cast<int>(parameters.size()); ++i)
+    if (isThin(parameters[i]) == thin) numbers.push_back(i);
+  return numbers;
+}
+
+Box chosen(const Box& of, const std::vector<int>& numbers) {
+  Box some;
+  for (const int i : numbers) some.push_back(of[i]);
+  return some;
+}
+
+/// f with the wide parameters as further states.
+Program withStates(const Program& f, const Box& parameters) {
+  const std::vector<int> wide = numbersOf(parameters, false), thin = numbersOf(parameters, true);
+  const int n = f.states(), states = n + static_cast<int>(wide.size());
+  return record(states, static_cast<int>(thin.size()), n,
+                [&](const auto& t, const auto& z, const auto& given, auto& y) {
+                  std::vector<Recorded> p(parameters.size());
+                  for (std::size_t l = 0; l < wide.size(); ++l) p[wide[l]] = z[n + l];
+                  for (std::size_t l = 0; l < thin.size(); ++l) p[thin[l]] = given[l];
+                  const std::vector<Recorded> values = written(f, {z.begin(), z.begin() + n}, p, t);
+                  for (int i = 0; i < n; ++i) y[i] = values[i];
+                });
+}
+
+Box middleOf(const Box& box) {
+  Box middle;
+  for (const Interval& each : box) middle.emplace_back(midpoint(each));
+  return middle;
+}
+
+bool isKnown(const Interval& x) { return isBounded(x) && !isEmpty(x); }
+
+/// The inverse by Gauss and Jordan, with pivots in units of rows and columns; false where one vanishes.
+bool invert(std::vector<double>& a, int n) {
+  std::vector<double> row(n, 0.0), column(n, 0.0);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) row[i] = std::max(row[i], std::abs(a[i * n + j]));
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      if (row[i] > 0) column[j] = std::max(column[j], std::abs(a[i * n + j]) / row[i]);
+  for (int i = 0; i < n; ++i)
+    if (!(row[i] > 0 && column[i] > 0 && std::isfinite(row[i]))) return false;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) a[i * n + j] /= row[i] * column[j];
+  std::vector<int> swaps(n);
+  for (int k = 0; k < n; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < n; ++i)
+      if (std::abs(a[i * n + k]) > std::abs(a[pivot * n + k])) pivot = i;
+    swaps[k] = pivot;
+    for (int j = 0; j < n && pivot != k; ++j) std::swap(a[k * n + j], a[pivot * n + j]);
+    const double inverse = 1 / a[k * n + k];
+    if (!std::isfinite(inverse)) return false;
+    a[k * n + k] = 1;
+    for (int j = 0; j < n; ++j) a[k * n + j] *= inverse;
+    for (int i = 0; i < n; ++i) {
+      if (i == k) continue;
+      const double factor = std::exchange(a[i * n + k], 0.0);
+      for (int j = 0; j < n; ++j) a[i * n + j] -= factor * a[k * n + j];
+    }
+  }
+  for (int k = n - 1; k >= 0; --k)
+    for (int i = 0; i < n && swaps[k] != k; ++i) std::swap(a[i * n + k], a[i * n + swaps[k]]);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      if (!std::isfinite(a[i * n + j] /= column[i] * row[j])) return false;
+  return true;
+}
+
+}  // namespace
+
+RootEquations::RootEquations(const Program& f, const Box& parameters, const Interval& time, std::vector<double> units)
+    : n_(f.states()),
+      wide_(numbersOf(parameters, false)),
+      units_(std::move(units)),
+      time_(time),
+      f_(withStates(f, parameters)),
+      derivative_(forwardDifferentiated(f_)),
+      consistency_(f_, chosen(parameters, numbersOf(parameters, true)), time),
+      values_(f_),
+      all_(derivative_),
+      doubles_(derivative_),
+      slopes_(derivative_.outputs()),
+      value_(n_),
+      spread_(n_) {
+  size_ = f_.states();
+  const Box thin = chosen(parameters, numbersOf(parameters, true));
+  std::vector<double> numbers;
+  for (const Interval& each : thin) numbers.push_back(each.lower());
+  values_.setParameters(thin);
+  all_.setParameters(thin);
+  doubles_.setParameters(numbers);
+}
+
+const Box& RootEquations::joint(const Box& x, const Box& q) {
+  joint_.assign(x.begin(), x.end());
+  joint_.insert(joint_.end(), q.begin(), q.end());
+  return joint_;
+}
+
+bool RootEquations::contract(Box& x, const Box& q) {
+  joint(x, q);
+  if (!consistency_.contract(joint_)) return false;
+  std::copy_n(joint_.begin(), n_, x.begin());
+  return true;
+}
+
+void RootEquations::evaluateSlopes(const Box& x, const Box& q) {
+  ++evaluations_;
+  all_(time_, std::span<const Interval>(joint(x, q)), std::span<Interval>(slopes_));
+}
+
+/// Y, of the last slopes.
+std::optional<RootEquations::Matrix> RootEquations::inverseOfMiddle() const {
+  Matrix y;
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) {
+      if (!isKnown(slope(i, j))) return {};
+      y.push_back(midpoint(slope(i, j)));
+    }
+  if (!invert(y, n_)) return {};
+  return y;
+}
+
+/// (Y [J K]) of row i and this column.
+Interval RootEquations::preconditioned(const Matrix& y, int i, int variable) const {
+  Interval sum(0.0);
+  for (int k = 0; k < n_; ++k) sum += Interval(y[i * n_ + k]) * slope(k, variable);
+  return sum;
+}
+
+/// Y F(m, q) for all q of the box, from F at its middle and the last slopes, which hold those at m; what q adds goes
+/// into spread_.
+Box RootEquations::moved(const Matrix& y, const Box& values, const Box& q) {
+  Box b;
+  for (int i = 0; i < n_; ++i) {
+    Interval sum(0.0), byQ(0.0);
+    for (int k = 0; k < n_; ++k) sum += Interval(y[i * n_ + k]) * values[k];
+    for (int l = n_; l < size_; ++l) byQ += preconditioned(y, i, l) * (q[l - n_] - Interval(midpoint(q[l - n_])));
+    spread_[i] = magnitude(byQ);
+    b.push_back(sum + byQ);
+  }
+  return b;
+}
+
+bool RootEquations::step(Box& x, const Box& q) {
+  evaluateSlopes(x, q);
+  const Box m = middleOf(x);
+  values_(time_, std::span<const Interval>(joint(m, middleOf(q))), std::span<Interval>(value_));
+  std::ranges::fill(spread_, 0.0);
+  isRounding_ = true;
+  for (int i = 0; i < n_; ++i) {
+    if (isEmpty(slopes_[i]) || isDisjoint(slopes_[i], Interval(0.0))) return false;
+    Interval range = value_[i];
+    for (int j = 0; j < size_; ++j)
+      range += slope(i, j) * (j < n_ ? x[j] - m[j] : q[j - n_] - Interval(midpoint(q[j - n_])));
+    range = intersection(range, slopes_[i]);
+    if (!contains(range, 0.0)) return false;
+    isRounding_ = isRounding_ && 2 * width(value_[i]) >= width(range);
+  }
+  const std::optional<Matrix> y = inverseOfMiddle();
+  if (!y) return true;
+  const Box b = moved(*y, value_, q);
+  Box offset;
+  for (int j = 0; j < n_; ++j) offset.push_back(x[j] - m[j]);
+  for (int i = 0; i < n_; ++i) {
+    Interval rest = b[i], diagonal(0.0);
+    for (int j = 0; j < n_; ++j) {
+      const Interval a = preconditioned(*y, i, j);
+      if (j == i)
+        diagonal = a;
+      else
+        rest += a * offset[j];
+    }
+    if (!isKnown(rest) || !isKnown(diagonal)) continue;
+    x[i] = intersection(x[i], m[i] + quotientWithin(-rest, diagonal, offset[i]));
+    if (isEmpty(x[i])) return false;
+    offset[i] = x[i] - m[i];
+  }
+  return true;
+}
+
+std::optional<std::vector<double>> RootEquations::approximate(std::vector<double> x, const Box& q) {
+  constexpr int most = 20;
+  constexpr double done = 0x1p-44;
+  std::vector<double> z(size_), values(slopes_.size());
+  for (int l = n_; l < size_; ++l) z[l] = midpoint(q[l - n_]);
+  double last = HUGE_VAL;
+  for (int k = 0; k < most; ++k) {
+    std::ranges::copy(x, z.begin());
+    doubles_(midpoint(time_), std::span<const double>(z), std::span<double>(values));
+    Matrix jacobian;
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < n_; ++j) jacobian.push_back(values[n_ + i * size_ + j]);
+    if (!invert(jacobian, n_)) return {};
+    double largest = 0;
+    for (int i = 0; i < n_; ++i) {
+      double sum = 0;
+      for (int j = 0; j < n_; ++j) sum += jacobian[i * n_ + j] * values[j];
+      x[i] -= sum;
+      largest = std::max(largest, std::abs(sum) / (units_[i] + std::abs(x[i])));
+      if (!std::isfinite(x[i])) return {};
+    }
+    if (largest <= done || (last <= 0x1p-30 && largest >= last)) return x;
+    if (k > 8 && largest > 0x1p-4) return {};
+    last = largest;
+  }
+  return {};
+}
+
+/// Σ_j |I - Y J|_ij r_j < r_i, of the last slopes.
+bool RootEquations::contracts(const Matrix& y, const std::vector<double>& r) const {
+  for (int i = 0; i < n_; ++i) {
+    Interval sum(0.0);
+    for (int j = 0; j < n_; ++j) {
+      const Interval a = Interval(i == j ? 1.0 : 0.0) - preconditioned(y, i, j);
+      if (!isKnown(a)) return false;
+      sum += Interval(magnitude(a)) * Interval(r[j]);
+    }
+    if (!(sum.upper() < r[i])) return false;
+  }
+  return true;
+}
+
+std::optional<RootEquations::Proof> RootEquations::prove(const std::vector<double>& c, const Box& q) {
+  const Box centre(c.begin(), c.end());
+  // About the middle of q, then all of it.
+  evaluateSlopes(centre, middleOf(q));
+  const std::optional<Matrix> y = inverseOfMiddle();
+  if (!y || !consistency_.isTameOn(joint(centre, q))) return {};
+  const Box values(slopes_.begin(), slopes_.begin() + n_);
+  evaluateSlopes(centre, q);
+  Box b = moved(*y, values, q);
+  const Box whole = Box(slopes_.begin(), slopes_.begin() + n_);
+  std::vector<double> r;
+  for (int i = 0; i < n_; ++i) {
+    Interval sum(0.0);
+    for (int k = 0; k < n_; ++k) sum += Interval((*y)[i * n_ + k]) * whole[k];
+    b[i] = intersection(b[i], sum);
+    if (!isKnown(b[i])) return {};
+    r.push_back(1.25 * magnitude(b[i]));
+  }
+  const auto around = [&](const std::vector<double>& radii) {
+    Box box;
+    for (int i = 0; i < n_; ++i) box.push_back(centre[i] + Interval(-radii[i], radii[i]));
+    return box;
+  };
+  const auto reach = [&](const Box& box) {  // of box - c
+    std::vector<double> radii;
+    for (int i = 0; i < n_; ++i) radii.push_back(magnitude(box[i] - centre[i]));
+    return radii;
+  };
+  const auto known = [&](const Box& box) {
+    if (!consistency_.isTameOn(joint(box, q))) return false;
+    evaluateSlopes(box, q);
+    return true;
+  };
+  constexpr int tries = 10;
+  for (int k = 0; k < tries; ++k) {
+    double largest = 0;  // what is exact gets room to map into too
+    for (int i = 0; i < n_; ++i) largest = std::max(largest, r[i] / units_[i]);
+    for (int i = 0; i < n_; ++i) {
+      if (!(r[i] <= 4 * units_[i])) return {};
+      r[i] = std::max({r[i], 0x1p-24 * largest * units_[i], 0x1p-50 * std::abs(c[i]), 0x1p-60 * units_[i]});
+    }
+    const Box d = around(r);
+    if (!known(d)) return {};
+    Box image;
+    bool inside = true;
+    for (int i = 0; i < n_; ++i) {
+      Interval sum = centre[i] - b[i];
+      for (int j = 0; j < n_; ++j)
+        sum += (Interval(i == j ? 1.0 : 0.0) - preconditioned(*y, i, j)) * (d[j] - centre[j]);
+      if (!isKnown(sum)) return {};
+      inside = inside && isInterior(sum, d[i]);
+      image.push_back(sum);
+    }
+    if (!inside || !contracts(*y, reach(d))) {
+      for (int i = 0; i < n_; ++i) r[i] = std::max(r[i], 1.25 * magnitude(image[i] - centre[i]));
+      continue;
+    }
+    Proof proof{image, d};
+    // The largest box in which it is alone: all its sides doubled, then each by itself.
+    const auto larger = [&](const std::vector<double>& radii) {
+      for (int i = 0; i < n_; ++i)
+        if (!(radii[i] <= 2 * units_[i])) return false;
+      const Box box = around(radii);
+      if (!known(box) || !contracts(*y, reach(box))) return false;
+      proof.alone = box;
+      r = radii;
+      return true;
+    };
+    std::vector<double> wider = r;
+    do {
+      for (int i = 0; i < n_; ++i) wider[i] = 2 * r[i];
+    } while (larger(wider));
+    for (int i = 0; i < n_; ++i) wider[i] = 1.4 * r[i];
+    larger(wider);
+    for (int i = 0; i < n_ && n_ > 1; ++i) {
+      do {
+        wider = r;
+        wider[i] *= 2;
+      } while (larger(wider));
+    }
+    for (int i = 0; i < 4; ++i) {
+      const Box before = proof.root;
+      if (!consistency_.isTameOn(joint(proof.root, q)) || !step(proof.root, q)) return {};
+      bool gained = false;
+      for (int j = 0; j < n_; ++j) gained = gained || width(proof.root[j]) < 0.9 * width(before[j]);
+      if (!gained) break;
+    }
+    return proof;
+  }
+  return {};
+}
+
+}  // namespace gamut

@@ -1,0 +1,75 @@
+// F(x, q) = 0 and what one step of a search for its roots asks of it: q are the parameters that are not thin. The
+// methods' derivations: all_roots.hpp.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analyses/roots/hull_consistency.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/interval.hpp"
+#include "scalars/program/program.hpp"
+
+namespace gamut {
+
+class RootEquations {
+ public:
+  /// `units`: widths of what is looked at, one a state.
+  RootEquations(const Program& f, const Box& parameters, const Interval& time, std::vector<double> units);
+  RootEquations(const RootEquations&) = delete;
+  RootEquations& operator=(const RootEquations&) = delete;
+
+  int states() const { return n_; }
+  /// The numbers of the parameters that q holds.
+  const std::vector<int>& wide() const { return wide_; }
+
+  /// What hull consistency leaves of x; false where that is nothing. `isTame`: as of HullConsistency, of what x was.
+  bool contract(Box& x, const Box& q);
+  bool isTame() const { return consistency_.isTame(); }
+
+  /// One step of Newton's method, where F is tame over x × q; false where no root is left.
+  bool step(Box& x, const Box& q);
+  // Of the last step:
+  const Interval& slope(int output, int variable) const { return slopes_[n_ + output * size_ + variable]; }
+  /// How far roots may move with q, in x_i.
+  const std::vector<double>& spread() const { return spread_; }
+  /// Whether F varies over the box by little more than its roundings in the middle.
+  bool isRounding() const { return isRounding_; }
+
+  /// An approximate root for the middle of q, by Newton's method in doubles from x; none where it does not converge.
+  std::optional<std::vector<double>> approximate(std::vector<double> x, const Box& q);
+
+  struct Proof {
+    Box root, alone;
+  };
+  /// One root for each q, near c.
+  std::optional<Proof> prove(const std::vector<double>& c, const Box& q);
+
+  /// Evaluations of all derivatives so far.
+  std::size_t evaluations() const { return evaluations_; }
+
+ private:
+  using Matrix = std::vector<double>;  // row by row
+
+  void evaluateSlopes(const Box& x, const Box& q);
+  std::optional<Matrix> inverseOfMiddle() const;
+  Interval preconditioned(const Matrix& y, int i, int variable) const;
+  Box moved(const Matrix& y, const Box& values, const Box& q);
+  bool contracts(const Matrix& y, const std::vector<double>& r) const;
+  const Box& joint(const Box& x, const Box& q);
+
+  int n_, size_;  // states, and these with q
+  std::vector<int> wide_;
+  std::vector<double> units_;
+  Interval time_;
+  Program f_, derivative_;
+  HullConsistency consistency_;
+  Evaluator<Interval> values_, all_;
+  Evaluator<double> doubles_;
+  Box joint_, slopes_, value_;  // slopes_: F, then the rows of its derivatives
+  std::vector<double> spread_;
+  bool isRounding_ = false;
+  std::size_t evaluations_ = 0;
+};
+
+}  // namespace gamut
