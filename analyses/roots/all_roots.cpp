@@ -144,6 +144,7 @@ class Searcher {
     std::vector<std::size_t> proofs;
     std::size_t seen = 0;
     std::vector<Failure> failures;
+    std::optional<std::size_t> cutBy;
   };
   struct Proof {
     Box q, root, alone;
@@ -159,7 +160,7 @@ class Searcher {
     std::vector<double> ends;
     for (const Interval& each : box) ends.insert(ends.end(), {each.lower(), each.upper()});
     const auto [at, isNew] = numbers_.try_emplace(ends, parts_.size());
-    if (isNew) parts_.push_back({box, {}, 0, {}});
+    if (isNew) parts_.push_back({box, {}, 0, {}, {}});
     return at->second;
   }
 
@@ -368,6 +369,9 @@ class Searcher {
   }
 
   void cutParameter(const Cell& cell, std::size_t l) {
+    // As other cells of this part were, so that what is proved of the halves is for all of them.
+    l = parts_[cell.q].cutBy.value_or(l);
+    parts_[cell.q].cutBy = l;
     const Box whole = parts_[cell.q].box;
     const auto [lower, upper] = bisect(whole[l]);
     for (const Interval& half : {lower, upper}) {

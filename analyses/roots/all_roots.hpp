@@ -8,13 +8,16 @@
 // the mean value theorem about the middles m, q, row by row; times Y ≈ J⁻¹ it is solved for one x_i after the other
 // (Gauss and Seidel; E. Hansen & S. Sengupta, BIT 21, 1981). It needs F to be defined and without jumps over X × Q.
 //
-// A root is proved about an approximate one, c, by R. Krawczyk's map (Computing 4, 1969). For each p of Q
+// A root is proved about an approximate one, c, for q, that moves by about S (p - q) (or S = 0, where that is enough):
+// with x = c + S (p - q) + δ, by R. Krawczyk's map (Computing 4, 1969). For all |δ| <= r
 //
-//   x - Y F(x, p) lies in c - Y F(c, Q) + (I - Y J)(D - c)     for all x of a box D about c.
+//   δ - Y F(x, p) lies in -Y F(c, q) - Y (K + J S)(Q - q) + (I - Y J')[-r, r]
 //
-// Where the right side is in the interior of D there is a root for each p (Brouwer, 1911). Two roots of one p would
-// have x - x' = (I - Y J)(x - x'): there is one only where Σ_j |I - Y J|_ij r_j < r_i for some r > 0. That is tried
-// with larger and larger boxes: `alone` is the largest, and none of it is looked at again for any p of Q.
+// with J, K over c + S (Q - q) and J' over D × Q, for a box D that holds c + S (Q - q) + [-r, r].
+// Where the right side is in the interior of [-r, r] there is a root for each p (Brouwer, 1911). Two roots of one p in
+// D would have x - x' = (I - Y J)(x - x'): there is one only where Σ_j |I - Y J|_ij w_j < w_i for some w > 0, which
+// makes |x - x'| / w zero. That is tried with larger and larger boxes D: `alone` is the largest, and none of it is
+// looked at again for any p of Q.
 //
 // Where Q is too wide for a proof it is cut. Roots of parts are continuous functions of p on them (a unique root in a
 // compact box). Those of two parts that share a p are one where they are one for a single such p, different where they
@@ -71,7 +74,7 @@ struct AllRoots {
 };
 
 struct RootSearch {
-  std::size_t mostCells = 500000;
+  std::size_t mostCells = 2000000;
   double resolution = 0x1p-40;           ///< of the region's widths: narrower cells are not cut
   double parameterResolution = 0x1p-10;  ///< of the parameters' widths, likewise
   Interval time = 0.0;                   ///< for all t of it

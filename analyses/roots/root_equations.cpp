@@ -141,7 +141,9 @@ std::optional<RootEquations::Matrix> RootEquations::inverseOfMiddle() const {
 /// (Y [J K]) of row i and this column.
 Interval RootEquations::preconditioned(const Matrix& y, int i, int variable) const {
   Interval sum(0.0);
-  for (int k = 0; k < n_; ++k) sum += Interval(y[i * n_ + k]) * slope(k, variable);
+  for (int k = 0; k < n_; ++k)
+    if (const Interval& by = slope(k, variable); by.lower() != 0 || by.upper() != 0)
+      sum += Interval(y[i * n_ + k]) * by;
   return sum;
 }
 
@@ -224,110 +226,146 @@ std::optional<std::vector<double>> RootEquations::approximate(std::vector<double
   return {};
 }
 
-/// Σ_j |I - Y J|_ij r_j < r_i, of the last slopes.
-bool RootEquations::contracts(const Matrix& y, const std::vector<double>& r) const {
-  for (int i = 0; i < n_; ++i) {
-    Interval sum(0.0);
+/// Whether Σ_j |I - Y J|_ij r_j < r_i for some r > 0, of the last slopes; from this r on, towards the matrix's own.
+bool RootEquations::contracts(const Matrix& y, std::vector<double> r) const {
+  Matrix size;
+  for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {
-      const Interval a = Interval(i == j ? 1.0 : 0.0) - preconditioned(y, i, j);
-      if (!isKnown(a)) return false;
-      sum += Interval(magnitude(a)) * Interval(r[j]);
+      size.push_back(magnitude(Interval(i == j ? 1.0 : 0.0) - preconditioned(y, i, j)));
+      if (!std::isfinite(size.back())) return false;
     }
-    if (!(sum.upper() < r[i])) return false;
+  constexpr int tries = 4;
+  for (int k = 0; k < tries; ++k) {
+    std::vector<double> image;
+    bool isLess = true;
+    for (int i = 0; i < n_; ++i) {
+      Interval sum(0.0);
+      for (int j = 0; j < n_; ++j) sum += Interval(size[i * n_ + j]) * Interval(r[j]);
+      image.push_back(sum.upper());
+      isLess = isLess && image[i] < r[i];
+    }
+    if (isLess) return true;
+    for (int i = 0; i < n_; ++i)
+      if (!((r[i] = 0.5 * (r[i] + image[i])) > 0 && std::isfinite(r[i]))) return false;
   }
-  return true;
+  return false;
 }
 
 std::optional<RootEquations::Proof> RootEquations::prove(const std::vector<double>& c, const Box& q) {
   const Box centre(c.begin(), c.end());
-  // About the middle of q, then all of it.
-  evaluateSlopes(centre, middleOf(q));
+  const Box middle = middleOf(q);
+  if (!consistency_.isTameOn(joint(centre, middle))) return {};
+  evaluateSlopes(centre, middle);
   const std::optional<Matrix> y = inverseOfMiddle();
-  if (!y || !consistency_.isTameOn(joint(centre, q))) return {};
+  if (!y) return {};
+  Matrix still(n_ * (size_ - n_), 0.0), along;
+  for (int i = 0; i < n_; ++i)
+    for (int l = n_; l < size_; ++l) along.push_back(-midpoint(preconditioned(*y, i, l)));
   const Box values(slopes_.begin(), slopes_.begin() + n_);
-  evaluateSlopes(centre, q);
-  Box b = moved(*y, values, q);
-  const Box whole = Box(slopes_.begin(), slopes_.begin() + n_);
-  std::vector<double> r;
+  std::optional<Proof> proof = prove(*y, centre, values, q, still);
+  if (!proof && !q.empty()) proof = prove(*y, centre, values, q, along);
+  return proof;
+}
+
+/// With values = F(c, middle of q) and S, row by row.
+std::optional<RootEquations::Proof> RootEquations::prove(const Matrix& y, const Box& centre, const Box& values,
+                                                         const Box& q, const Matrix& s) {
+  const int parameters = size_ - n_;
+  Box shift, path = centre;
+  for (const Interval& each : q) shift.push_back(each - Interval(midpoint(each)));
   for (int i = 0; i < n_; ++i) {
-    Interval sum(0.0);
-    for (int k = 0; k < n_; ++k) sum += Interval((*y)[i * n_ + k]) * whole[k];
-    b[i] = intersection(b[i], sum);
-    if (!isKnown(b[i])) return {};
-    r.push_back(1.25 * magnitude(b[i]));
+    for (int l = 0; l < parameters; ++l) path[i] += Interval(s[i * parameters + l]) * shift[l];
+    if (!(width(path[i]) <= 4 * units_[i])) return {};
   }
-  const auto around = [&](const std::vector<double>& radii) {
-    Box box;
-    for (int i = 0; i < n_; ++i) box.push_back(centre[i] + Interval(-radii[i], radii[i]));
-    return box;
-  };
-  const auto reach = [&](const Box& box) {  // of box - c
-    std::vector<double> radii;
-    for (int i = 0; i < n_; ++i) radii.push_back(magnitude(box[i] - centre[i]));
-    return radii;
-  };
-  const auto known = [&](const Box& box) {
+  const auto isKnownOn = [&](const Box& box) {
     if (!consistency_.isTameOn(joint(box, q))) return false;
     evaluateSlopes(box, q);
     return true;
   };
+  if (!isKnownOn(path)) return {};
+  Box b;  // Y F on the path
+  std::vector<double> r;
+  for (int i = 0; i < n_; ++i) {
+    Interval sum(0.0), whole(0.0);
+    for (int k = 0; k < n_; ++k) {
+      sum += Interval(y[i * n_ + k]) * values[k];
+      whole += Interval(y[i * n_ + k]) * slopes_[k];
+    }
+    for (int l = 0; l < parameters; ++l) {
+      Interval slope = preconditioned(y, i, n_ + l);
+      for (int j = 0; j < n_; ++j)
+        if (const double moves = s[j * parameters + l]; moves != 0) slope += preconditioned(y, i, j) * Interval(moves);
+      sum += slope * shift[l];
+    }
+    b.push_back(intersection(sum, whole));
+    if (!isKnown(b[i])) return {};
+    r.push_back(1.25 * magnitude(b[i]));
+  }
   constexpr int tries = 10;
   for (int k = 0; k < tries; ++k) {
     double largest = 0;  // what is exact gets room to map into too
     for (int i = 0; i < n_; ++i) largest = std::max(largest, r[i] / units_[i]);
+    Box d;
     for (int i = 0; i < n_; ++i) {
       if (!(r[i] <= 4 * units_[i])) return {};
-      r[i] = std::max({r[i], 0x1p-24 * largest * units_[i], 0x1p-50 * std::abs(c[i]), 0x1p-60 * units_[i]});
+      r[i] = std::max({r[i], 0x1p-24 * largest * units_[i], 0x1p-50 * magnitude(path[i]), 0x1p-60 * units_[i]});
+      d.push_back(path[i] + Interval(-r[i], r[i]));
     }
-    const Box d = around(r);
-    if (!known(d)) return {};
-    Box image;
-    bool inside = true;
+    if (!isKnownOn(d)) return {};
+    bool isInside = true;
+    Box root;
+    std::vector<double> next = r;
     for (int i = 0; i < n_; ++i) {
-      Interval sum = centre[i] - b[i];
+      Interval image = -b[i];
       for (int j = 0; j < n_; ++j)
-        sum += (Interval(i == j ? 1.0 : 0.0) - preconditioned(*y, i, j)) * (d[j] - centre[j]);
-      if (!isKnown(sum)) return {};
-      inside = inside && isInterior(sum, d[i]);
-      image.push_back(sum);
+        image += (Interval(i == j ? 1.0 : 0.0) - preconditioned(y, i, j)) * Interval(-r[j], r[j]);
+      if (!isKnown(image)) return {};
+      root.push_back(path[i] + image);
+      isInside = isInside && magnitude(image) < r[i] && isInterior(root[i], d[i]);
+      next[i] = std::max(r[i], 1.25 * magnitude(image));
     }
-    if (!inside || !contracts(*y, reach(d))) {
-      for (int i = 0; i < n_; ++i) r[i] = std::max(r[i], 1.25 * magnitude(image[i] - centre[i]));
-      continue;
-    }
-    Proof proof{image, d};
-    // The largest box in which it is alone: all its sides doubled, then each by itself.
-    const auto larger = [&](const std::vector<double>& radii) {
-      for (int i = 0; i < n_; ++i)
-        if (!(radii[i] <= 2 * units_[i])) return false;
-      const Box box = around(radii);
-      if (!known(box) || !contracts(*y, reach(box))) return false;
-      proof.alone = box;
-      r = radii;
-      return true;
-    };
-    std::vector<double> wider = r;
-    do {
-      for (int i = 0; i < n_; ++i) wider[i] = 2 * r[i];
-    } while (larger(wider));
-    for (int i = 0; i < n_; ++i) wider[i] = 1.4 * r[i];
-    larger(wider);
-    for (int i = 0; i < n_ && n_ > 1; ++i) {
-      do {
-        wider = r;
-        wider[i] *= 2;
-      } while (larger(wider));
-    }
-    for (int i = 0; i < 4; ++i) {
-      const Box before = proof.root;
-      if (!consistency_.isTameOn(joint(proof.root, q)) || !step(proof.root, q)) return {};
-      bool gained = false;
-      for (int j = 0; j < n_; ++j) gained = gained || width(proof.root[j]) < 0.9 * width(before[j]);
-      if (!gained) break;
-    }
-    return proof;
+    if (isInside && contracts(y, r)) return finished({std::move(root), d}, y, path, r, q);
+    r = next;
   }
   return {};
+}
+
+/// With the largest box in which it is alone: all its sides doubled, then each by itself; and as narrow a root box as
+/// Newton's steps make it.
+std::optional<RootEquations::Proof> RootEquations::finished(Proof proof, const Matrix& y, const Box& path,
+                                                            std::vector<double> r, const Box& q) {
+  const auto larger = [&](const std::vector<double>& radii) {
+    Box box;
+    std::vector<double> halves;
+    for (int i = 0; i < n_; ++i) {
+      if (!(radii[i] <= 2 * units_[i])) return false;
+      box.push_back(path[i] + Interval(-radii[i], radii[i]));
+      halves.push_back(radius(box[i]));
+    }
+    if (!consistency_.isTameOn(joint(box, q))) return false;
+    evaluateSlopes(box, q);
+    if (!contracts(y, halves)) return false;
+    proof.alone = box;
+    r = radii;
+    return true;
+  };
+  std::vector<double> wider = r;
+  for (const double factor : {16.0, 2.0, 1.4}) do {
+      for (int i = 0; i < n_; ++i) wider[i] = factor * r[i];
+    } while (larger(wider));
+  for (int i = 0; i < n_ && n_ > 1; ++i) do {
+      wider = r;
+      wider[i] *= 2;
+    } while (larger(wider));
+  constexpr int most = 4;
+  for (int k = 0; k < most; ++k) {
+    const Box before = proof.root;
+    if (!consistency_.isTameOn(joint(proof.root, q)) || !step(proof.root, q)) return {};
+    bool isGained = false;
+    for (int i = 0; i < n_; ++i) isGained = isGained || width(proof.root[i]) < 0.9 * width(before[i]);
+    if (!isGained) break;
+  }
+  return proof;
 }
 
 }  // namespace gamut

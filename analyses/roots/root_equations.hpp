@@ -55,7 +55,9 @@ class RootEquations {
   std::optional<Matrix> inverseOfMiddle() const;
   Interval preconditioned(const Matrix& y, int i, int variable) const;
   Box moved(const Matrix& y, const Box& values, const Box& q);
-  bool contracts(const Matrix& y, const std::vector<double>& r) const;
+  bool contracts(const Matrix& y, std::vector<double> r) const;
+  std::optional<Proof> prove(const Matrix& y, const Box& centre, const Box& values, const Box& q, const Matrix& s);
+  std::optional<Proof> finished(Proof proof, const Matrix& y, const Box& path, std::vector<double> r, const Box& q);
   const Box& joint(const Box& x, const Box& q);
 
   int n_, size_;  // states, and these with q
