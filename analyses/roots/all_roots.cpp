@@ -275,15 +275,14 @@ class Searcher {
 
   /// About an approximate root in or near the cell, if it is not known already.
   Attempt attemptProof(const Cell& cell, const std::vector<double>& spread) {
-    std::vector<double> middle;
-    for (const Interval& x : cell.x) middle.push_back(midpoint(x));
-    const Box q = parts_[cell.q].box;
-    const std::optional<std::vector<double>> c = equations_.approximate(middle, q);
-    if (!c) return Attempt::failed;
+    std::vector<double> middle, reach;
     for (int i = 0; i < n_; ++i) {
-      const double reach = 1.5 * width(cell.x[i]) + (std::isfinite(spread[i]) ? spread[i] : 0);
-      if (!(std::abs((*c)[i] - middle[i]) <= reach + 0x1p-44 * units_[i])) return Attempt::failed;
+      middle.push_back(midpoint(cell.x[i]));
+      reach.push_back(1.5 * width(cell.x[i]) + (std::isfinite(spread[i]) ? spread[i] : 0) + 0x1p-44 * units_[i]);
     }
+    const Box q = parts_[cell.q].box;
+    const std::optional<std::vector<double>> c = equations_.approximate(middle, q, reach);
+    if (!c) return Attempt::failed;
     const Box at(c->begin(), c->end());
     for (const std::size_t k : proofsFor(cell.q))
       if (isWithin(at, proofs_[k].alone)) return Attempt::failed;

@@ -198,9 +198,12 @@ bool RootEquations::step(Box& x, const Box& q) {
   return true;
 }
 
-std::optional<std::vector<double>> RootEquations::approximate(std::vector<double> x, const Box& q) {
+std::optional<std::vector<double>> RootEquations::approximate(std::vector<double> x, const Box& q,
+                                                              const std::vector<double>& reach) {
   constexpr int most = 20;
-  constexpr double done = 0x1p-44;
+  constexpr double far = 16;
+  const std::vector<double> start = x;
+  constexpr double done = 0x1p-44, near = 0x1p-30;
   std::vector<double> z(size_), values(slopes_.size());
   for (int l = n_; l < size_; ++l) z[l] = midpoint(q[l - n_]);
   double last = HUGE_VAL;
@@ -217,10 +220,13 @@ std::optional<std::vector<double>> RootEquations::approximate(std::vector<double
       for (int j = 0; j < n_; ++j) sum += jacobian[i * n_ + j] * values[j];
       x[i] -= sum;
       largest = std::max(largest, std::abs(sum) / (units_[i] + std::abs(x[i])));
-      if (!std::isfinite(x[i])) return {};
+      if (!(std::abs(x[i] - start[i]) <= far * reach[i])) return {};
     }
-    if (largest <= done || (last <= 0x1p-30 && largest >= last)) return x;
-    if (k > 8 && largest > 0x1p-4) return {};
+    if (largest <= done || (last <= near && largest >= last)) {
+      for (int i = 0; i < n_; ++i)
+        if (!(std::abs(x[i] - start[i]) <= reach[i])) return {};
+      return x;
+    }
     last = largest;
   }
   return {};

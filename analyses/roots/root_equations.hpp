@@ -36,8 +36,9 @@ class RootEquations {
   /// Whether F varies over the box by little more than its roundings in the middle.
   bool isRounding() const { return isRounding_; }
 
-  /// An approximate root for the middle of q, by Newton's method in doubles from x; none where it does not converge.
-  std::optional<std::vector<double>> approximate(std::vector<double> x, const Box& q);
+  /// An approximate root for the middle of q, by Newton's method in doubles from x; none where it does not converge to
+  /// one within reach.
+  std::optional<std::vector<double>> approximate(std::vector<double> x, const Box& q, const std::vector<double>& reach);
 
   struct Proof {
     Box root, alone;
