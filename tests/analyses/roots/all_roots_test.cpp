@@ -612,9 +612,15 @@ TEST(AllRoots, AreRightWhereFunctionsEndJumpOrBend) {
   const Box region{Interval(-2, 3)};
   const Interval half(0.45, 0.55);
   const auto found = [&](auto g, const Interval& p) { return allRoots(ofOne(g), region, {p}); };
-  // No root where a square root has no value, though the formula of its derivative would let one be proved.
-  EXPECT_TRUE(found([](const auto& x, const auto& p) { return sqr(sqrt(x)) + p; }, half).isComplete());
-  EXPECT_TRUE(found([](const auto& x, const auto& p) { return sqr(sqrt(x)) + p; }, half).families.empty());
+  // No root where a square root has no value, though the formula of its derivative, 1, would let one be proved.
+  const auto squareOfRoot = [](const auto& x, const auto& p) { return sqr(sqrt(x)) + p; };
+  EXPECT_TRUE(found(squareOfRoot, half).isComplete());
+  EXPECT_TRUE(found(squareOfRoot, half).families.empty());
+  const Interval ends(-0.2, 0.1);
+  const AllRoots atEnd = found(squareOfRoot, ends);
+  EXPECT_TRUE(atEnd.families.empty());
+  for (const Point& p : pointsOf({ends}, 30))
+    expectNoneMissed(atEnd, region, p, p[0] <= 0 ? std::vector<Point>{{-p[0]}} : std::vector<Point>{});
   const auto expect = [&](auto g, const Interval& p, auto rootsAt) {
     const AllRoots all = found(g, p);
     for (const Point& at : pointsOf({p}, 30)) expectAll(all, region, at, rootsAt(at[0]));
@@ -643,6 +649,10 @@ TEST(AllRoots, AreRightWhereFunctionsEndJumpOrBend) {
   const AllRoots leap = found([](const auto& x, const auto& p) { return p * sign(x) + x; }, half);
   EXPECT_TRUE(leap.families.empty());
   for (const Point& p : pointsOf({half}, 10)) expectNoneMissed(leap, region, p, {{Number(0)}});
+  const AllRoots three = found([](const auto& x, const auto& p) { return x - p * sign(x); }, half);
+  EXPECT_EQ(three.families.size(), 2U);
+  EXPECT_FALSE(three.isComplete());
+  for (const Point& p : pointsOf({half}, 10)) expectNoneMissed(three, region, p, {{-p[0]}, {Number(0)}, {p[0]}});
   const AllRoots beside = found([](const auto& x, const auto& p) { return p * sign(x - 1.0) + x; }, half);
   for (const Point& p : pointsOf({half}, 10)) expectNoneMissed(beside, region, p, {{p[0]}});
 }
