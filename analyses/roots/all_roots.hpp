@@ -15,9 +15,12 @@
 //
 // with J, K over c + S (Q - q) and J' over D × Q, for a box D that holds c + S (Q - q) + [-r, r].
 // Where the right side is in the interior of [-r, r] there is a root for each p (Brouwer, 1911). Two roots of one p in
-// D would have x - x' = (I - Y J)(x - x'): there is one only where Σ_j |I - Y J|_ij w_j < w_i for some w > 0, which
+// D would have x - x' = (I - Y J')(x - x'): there is one only where Σ_j |I - Y J'|_ij w_j < w_i for some w > 0, which
 // makes |x - x'| / w zero. That is tried with larger and larger boxes D: `alone` is the largest, and none of it is
-// looked at again for any p of Q.
+// looked at again for any p of Q. Where S ≠ 0 second derivatives tell more of both: with V = (S; I), u = p - q, H those
+// of Y F by x and p over D × Q, Taylor's theorem along the course and the mean value theorem for the derivatives give
+//
+//   Y F(c + S u, p) in Y F(c, q) + Y (J S + K)(c, q) u + ½ uᵀ (Vᵀ H V) u,    Y J' in Y J(c, q) + H (V u + δ).
 //
 // Where Q is too wide for a proof it is cut. Roots of parts are continuous functions of p on them (a unique root in a
 // compact box). Those of two parts that share a p are one where they are one for a single such p, different where they

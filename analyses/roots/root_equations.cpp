@@ -88,11 +88,12 @@ bool invert(std::vector<double>& a, int n) {
 RootEquations::RootEquations(const Program& f, const Box& parameters, const Interval& time, std::vector<double> units)
     : n_(f.states()),
       wide_(numbersOf(parameters, false)),
+      thin_(chosen(parameters, numbersOf(parameters, true))),
       units_(std::move(units)),
       time_(time),
       f_(withStates(f, parameters)),
       derivative_(forwardDifferentiated(f_)),
-      consistency_(f_, chosen(parameters, numbersOf(parameters, true)), time),
+      consistency_(f_, thin_, time),
       values_(f_),
       all_(derivative_),
       doubles_(derivative_),
@@ -100,13 +101,14 @@ RootEquations::RootEquations(const Program& f, const Box& parameters, const Inte
       value_(n_),
       spread_(n_) {
   size_ = f_.states();
-  const Box thin = chosen(parameters, numbersOf(parameters, true));
   std::vector<double> numbers;
-  for (const Interval& each : thin) numbers.push_back(each.lower());
-  values_.setParameters(thin);
-  all_.setParameters(thin);
+  for (const Interval& each : thin_) numbers.push_back(each.lower());
+  values_.setParameters(thin_);
+  all_.setParameters(thin_);
   doubles_.setParameters(numbers);
 }
+
+RootEquations::~RootEquations() = default;
 
 const Box& RootEquations::joint(const Box& x, const Box& q) {
   joint_.assign(x.begin(), x.end());
@@ -232,12 +234,20 @@ std::optional<std::vector<double>> RootEquations::approximate(std::vector<double
   return {};
 }
 
-/// Whether Σ_j |I - Y J|_ij r_j < r_i for some r > 0, of the last slopes; from this r on, towards the matrix's own.
-bool RootEquations::contracts(const Matrix& y, std::vector<double> r) const {
+/// Y J, row by row, of the last slopes.
+Box RootEquations::preconditioned(const Matrix& y) const {
+  Box a;
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) a.push_back(preconditioned(y, i, j));
+  return a;
+}
+
+/// Whether Σ_j |I - A|_ij r_j < r_i for some r > 0; from this r on, towards the matrix's own.
+bool RootEquations::contracts(const Box& a, std::vector<double> r) const {
   Matrix size;
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {
-      size.push_back(magnitude(Interval(i == j ? 1.0 : 0.0) - preconditioned(y, i, j)));
+      size.push_back(magnitude(Interval(i == j ? 1.0 : 0.0) - a[i * n_ + j]));
       if (!std::isfinite(size.back())) return false;
     }
   constexpr int tries = 4;
@@ -257,6 +267,18 @@ bool RootEquations::contracts(const Matrix& y, std::vector<double> r) const {
   return false;
 }
 
+/// What a proof is about: x = c + S (p - q) + δ, for all parameters p of a box with the middle q.
+struct RootEquations::Course {
+  const Box& parameters;
+  Matrix y;
+  Box centre, at;  // c; F and its derivatives at (c, q)
+  Box shift;       // of p - q
+  Matrix s;        // row by row
+  bool isBent;     // whether second derivatives bound what varies along it
+  Box path = {};   // of c + S (p - q)
+  Box b = {};      // of Y F there
+};
+
 std::optional<RootEquations::Proof> RootEquations::prove(const std::vector<double>& c, const Box& q) {
   const Box centre(c.begin(), c.end());
   const Box middle = middleOf(q);
@@ -264,73 +286,174 @@ std::optional<RootEquations::Proof> RootEquations::prove(const std::vector<doubl
   evaluateSlopes(centre, middle);
   const std::optional<Matrix> y = inverseOfMiddle();
   if (!y) return {};
-  Matrix still(n_ * (size_ - n_), 0.0), along;
+  Course course{q, *y, centre, slopes_, {}, Matrix(n_ * (size_ - n_), 0.0), false};
+  Matrix along;
   for (int i = 0; i < n_; ++i)
     for (int l = n_; l < size_; ++l) along.push_back(-midpoint(preconditioned(*y, i, l)));
-  const Box values(slopes_.begin(), slopes_.begin() + n_);
-  std::optional<Proof> proof = prove(*y, centre, values, q, still);
-  if (!proof && !q.empty()) proof = prove(*y, centre, values, q, along);
-  return proof;
+  for (const Interval& each : q) course.shift.push_back(each - Interval(midpoint(each)));
+  std::optional<Proof> proof = prove(course);
+  if (proof || q.empty()) return proof;
+  course.s = std::move(along);
+  course.isBent = canBend();
+  return prove(course);
 }
 
-/// With values = F(c, middle of q) and S, row by row.
-std::optional<RootEquations::Proof> RootEquations::prove(const Matrix& y, const Box& centre, const Box& values,
-                                                         const Box& q, const Matrix& s) {
-  const int parameters = size_ - n_;
-  Box shift, path = centre;
-  for (const Interval& each : q) shift.push_back(each - Interval(midpoint(each)));
-  for (int i = 0; i < n_; ++i) {
-    for (int l = 0; l < parameters; ++l) path[i] += Interval(s[i * parameters + l]) * shift[l];
-    if (!(width(path[i]) <= 4 * units_[i])) return {};
+/// Whether second derivatives are few enough to be worth their while.
+bool RootEquations::canBend() {
+  constexpr int most = 30000;
+  if ((n_ + n_ * size_) * size_ > most) return false;
+  if (!bent_) bent_ = std::make_unique<Bent>(derivative_, *this);
+  return true;
+}
+
+struct RootEquations::Bent {
+  Bent(const Program& derivative, const RootEquations& of)
+      : program(forwardDifferentiated(derivative)),
+        consistency(derivative, of.thin_, of.time_),
+        evaluator(program),
+        values(program.outputs()) {
+    evaluator.setParameters(of.thin_);
   }
-  const auto isKnownOn = [&](const Box& box) {
-    if (!consistency_.isTameOn(joint(box, q))) return false;
-    evaluateSlopes(box, q);
-    return true;
-  };
-  if (!isKnownOn(path)) return {};
-  Box b;  // Y F on the path
-  std::vector<double> r;
+
+  Program program;
+  HullConsistency consistency;
+  Evaluator<Interval> evaluator;
+  Box values;  // F, its derivatives row by row, then those of all of them
+};
+
+/// F and its derivatives over x × q into slopes_, Y times the second derivatives into bends_; false where they are not
+/// known.
+bool RootEquations::evaluateBends(const Matrix& y, const Box& x, const Box& q) {
+  ++evaluations_;
+  if (!bent_->consistency.isTameOn(joint(x, q))) return false;
+  Box& values = bent_->values;
+  bent_->evaluator(time_, std::span<const Interval>(joint_), std::span<Interval>(values));
+  std::copy_n(values.begin(), slopes_.size(), slopes_.begin());
+  bends_.assign(n_ * size_ * size_, Interval(0.0));
+  for (int i = 0; i < n_; ++i)
+    for (int k = 0; k < n_; ++k)
+      for (int ab = 0; ab < size_ * size_; ++ab)
+        if (const Interval& by = values[slopes_.size() + n_ * size_ + k * size_ * size_ + ab];
+            by.lower() != 0 || by.upper() != 0)
+          bends_[i * size_ * size_ + ab] += Interval(y[i * n_ + k]) * by;
+  return std::ranges::all_of(bends_, isKnown);
+}
+
+/// Along the course, of row i and column a of bends_: what parameter l adds.
+Interval RootEquations::bendAlong(const Course& course, int i, int a, int l) const {
+  const Interval* row = &bends_[(i * size_ + a) * size_];
+  Interval sum = row[n_ + l];
+  for (int k = 0; k < n_; ++k) sum += row[k] * Interval(course.s[k * (size_ - n_) + l]);
+  return sum;
+}
+
+/// course.path and course.b; false where they are not known.
+bool RootEquations::start(Course& course) {
+  const Box& q = course.parameters;
+  const Matrix &y = course.y, &s = course.s;
+  const int parameters = size_ - n_;
+  course.path = course.centre;
+  course.b.clear();
+  for (int i = 0; i < n_; ++i) {
+    for (int l = 0; l < parameters; ++l) course.path[i] += Interval(s[i * parameters + l]) * course.shift[l];
+    if (!(width(course.path[i]) <= 4 * units_[i])) return false;
+  }
+  if (course.isBent) {  // slopes_ at the middle, for Y (K + J S) there
+    if (!evaluateBends(y, course.path, q)) return false;
+  } else {
+    if (!consistency_.isTameOn(joint(course.path, q))) return false;
+    evaluateSlopes(course.path, q);
+  }
+  const Box range(slopes_.begin(), slopes_.begin() + n_);
+  if (course.isBent) slopes_ = course.at;
   for (int i = 0; i < n_; ++i) {
     Interval sum(0.0), whole(0.0);
     for (int k = 0; k < n_; ++k) {
-      sum += Interval(y[i * n_ + k]) * values[k];
-      whole += Interval(y[i * n_ + k]) * slopes_[k];
+      sum += Interval(y[i * n_ + k]) * course.at[k];
+      whole += Interval(y[i * n_ + k]) * range[k];
     }
     for (int l = 0; l < parameters; ++l) {
       Interval slope = preconditioned(y, i, n_ + l);
       for (int j = 0; j < n_; ++j)
         if (const double moves = s[j * parameters + l]; moves != 0) slope += preconditioned(y, i, j) * Interval(moves);
-      sum += slope * shift[l];
+      sum += slope * course.shift[l];
     }
-    b.push_back(intersection(sum, whole));
-    if (!isKnown(b[i])) return {};
-    r.push_back(1.25 * magnitude(b[i]));
+    if (course.isBent)
+      for (int l = 0; l < parameters; ++l)
+        for (int m = 0; m < parameters; ++m) {
+          Interval bend = bendAlong(course, i, n_ + l, m);
+          for (int k = 0; k < n_; ++k) bend += Interval(s[k * parameters + l]) * bendAlong(course, i, k, m);
+          sum += 0.5 * bend * (l == m ? sqr(course.shift[l]) : course.shift[l] * course.shift[m]);
+        }
+    course.b.push_back(intersection(sum, whole));
+    if (!isKnown(course.b[i])) return false;
   }
+  return true;
+}
+
+/// Y J for x in `d` and all parameters, once along the course, where δ is in [-r, r], and once anywhere; false where
+/// they are not known.
+bool RootEquations::slopesAlong(const Course& course, const Box& d, const std::vector<double>& r, Box& along,
+                                Box& anywhere) {
+  if (course.isBent ? !evaluateBends(course.y, d, course.parameters)
+                    : !consistency_.isTameOn(joint(d, course.parameters)))
+    return false;
+  if (!course.isBent) evaluateSlopes(d, course.parameters);
+  along = anywhere = preconditioned(course.y);
+  if (!course.isBent) return true;
+  slopes_ = course.at;
+  const Box middle = preconditioned(course.y);
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) {
+      const Interval* row = &bends_[(i * size_ + j) * size_];
+      Interval there = middle[i * n_ + j], here = there;
+      for (int l = 0; l < size_ - n_; ++l) {
+        here += bendAlong(course, i, j, l) * course.shift[l];
+        there += row[n_ + l] * course.shift[l];
+      }
+      for (int k = 0; k < n_; ++k) {
+        here += row[k] * Interval(-r[k], r[k]);
+        there += row[k] * (d[k] - course.centre[k]);
+      }
+      along[i * n_ + j] = intersection(along[i * n_ + j], here);
+      anywhere[i * n_ + j] = intersection(anywhere[i * n_ + j], there);
+    }
+  return true;
+}
+
+std::optional<RootEquations::Proof> RootEquations::prove(Course& course) {
+  if (!start(course)) return {};
+  const Box &path = course.path, &b = course.b;
+  std::vector<double> r;
+  for (const Interval& each : b) r.push_back(1.25 * magnitude(each));
   constexpr int tries = 10;
   for (int k = 0; k < tries; ++k) {
     double largest = 0;  // what is exact gets room to map into too
     for (int i = 0; i < n_; ++i) largest = std::max(largest, r[i] / units_[i]);
-    Box d;
+    Box d, along, anywhere;
     for (int i = 0; i < n_; ++i) {
       if (!(r[i] <= 4 * units_[i])) return {};
       r[i] = std::max({r[i], 0x1p-24 * largest * units_[i], 0x1p-50 * magnitude(path[i]), 0x1p-60 * units_[i]});
       d.push_back(path[i] + Interval(-r[i], r[i]));
     }
-    if (!isKnownOn(d)) return {};
+    if (!slopesAlong(course, d, r, along, anywhere)) return {};
     bool isInside = true;
     Box root;
     std::vector<double> next = r;
     for (int i = 0; i < n_; ++i) {
       Interval image = -b[i];
-      for (int j = 0; j < n_; ++j)
-        image += (Interval(i == j ? 1.0 : 0.0) - preconditioned(y, i, j)) * Interval(-r[j], r[j]);
+      for (int j = 0; j < n_; ++j) image += (Interval(i == j ? 1.0 : 0.0) - along[i * n_ + j]) * Interval(-r[j], r[j]);
       if (!isKnown(image)) return {};
       root.push_back(path[i] + image);
       isInside = isInside && magnitude(image) < r[i] && isInterior(root[i], d[i]);
       next[i] = std::max(r[i], 1.25 * magnitude(image));
     }
-    if (isInside && contracts(y, r)) return finished({std::move(root), d}, y, path, r, q);
+    if (isInside) {
+      std::vector<double> halves;
+      for (const Interval& each : d) halves.push_back(radius(each));
+      if (contracts(anywhere, halves)) return finished({std::move(root), d}, course.y, path, r, course.parameters);
+      if (course.isBent) return {};  // larger boxes would only be worse
+    }
     r = next;
   }
   return {};
@@ -350,7 +473,7 @@ std::optional<RootEquations::Proof> RootEquations::finished(Proof proof, const M
     }
     if (!consistency_.isTameOn(joint(box, q))) return false;
     evaluateSlopes(box, q);
-    if (!contracts(y, halves)) return false;
+    if (!contracts(preconditioned(y), halves)) return false;
     proof.alone = box;
     r = radii;
     return true;

@@ -2,6 +2,7 @@
 // methods' derivations: all_roots.hpp.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,7 @@ class RootEquations {
   RootEquations(const Program& f, const Box& parameters, const Interval& time, std::vector<double> units);
   RootEquations(const RootEquations&) = delete;
   RootEquations& operator=(const RootEquations&) = delete;
+  ~RootEquations();
 
   int states() const { return n_; }
   /// The numbers of the parameters that q holds.
@@ -56,13 +58,22 @@ class RootEquations {
   std::optional<Matrix> inverseOfMiddle() const;
   Interval preconditioned(const Matrix& y, int i, int variable) const;
   Box moved(const Matrix& y, const Box& values, const Box& q);
-  bool contracts(const Matrix& y, std::vector<double> r) const;
-  std::optional<Proof> prove(const Matrix& y, const Box& centre, const Box& values, const Box& q, const Matrix& s);
+  Box preconditioned(const Matrix& y) const;
+  bool contracts(const Box& a, std::vector<double> r) const;
+  struct Course;
+  struct Bent;
+  bool canBend();
+  bool evaluateBends(const Matrix& y, const Box& x, const Box& q);
+  Interval bendAlong(const Course& course, int i, int a, int l) const;
+  bool start(Course& course);
+  bool slopesAlong(const Course& course, const Box& d, const std::vector<double>& r, Box& along, Box& anywhere);
+  std::optional<Proof> prove(Course& course);
   std::optional<Proof> finished(Proof proof, const Matrix& y, const Box& path, std::vector<double> r, const Box& q);
   const Box& joint(const Box& x, const Box& q);
 
   int n_, size_;  // states, and these with q
   std::vector<int> wide_;
+  Box thin_;  // the other parameters
   std::vector<double> units_;
   Interval time_;
   Program f_, derivative_;
@@ -71,6 +82,8 @@ class RootEquations {
   Evaluator<double> doubles_;
   Box joint_, slopes_, value_;  // slopes_: F, then the rows of its derivatives
   std::vector<double> spread_;
+  std::unique_ptr<Bent> bent_;  // second derivatives, where they were asked for
+  Box bends_;                   // Y times them: of output i, by variables a and b
   bool isRounding_ = false;
   std::size_t evaluations_ = 0;
 };
