@@ -146,8 +146,8 @@ class Searcher {
     std::vector<Failure> failures;
     std::optional<std::size_t> cutBy;
   };
-  struct Proof {
-    Box q, root, alone;
+  struct Proof : RootEquations::Proof {
+    Box q;
   };
   struct Left {
     Box x, q;
@@ -299,7 +299,7 @@ class Searcher {
     }
     proofCells_ += equations_.evaluations() - before;
     if (proof) {
-      proofs_.push_back({q, std::move(proof->root), std::move(proof->alone)});
+      proofs_.push_back({std::move(*proof), q});
       return Attempt::proved;
     }
     std::vector<Failure>& failures = parts_[cell.q].failures;
@@ -418,7 +418,9 @@ class Searcher {
     if (known != Relation::unknown) return known;
     Box p;
     for (const Interval& each : commonOf(a.q, b.q)) p.emplace_back(midpoint(each));
-    return decided(thinRoot(a.root, p), thinRoot(b.root, p));
+    const Box rootA = a.rootAt(p), rootB = b.rootAt(p);
+    const Relation there = decided(rootA, rootB);
+    return there != Relation::unknown ? there : decided(thinRoot(rootA, p), thinRoot(rootB, p));
   }
 
   /// Of a root box of a proof for these parameters, for a single one of them.
@@ -480,8 +482,38 @@ class Searcher {
         return std::ranges::lexicographical_compare(a.root, b.root, {}, midpoint, midpoint);
       });
     tellUndecided(roots);
+    for (std::size_t k = 0; k < roots.families.size(); ++k)
+      if (roots.families[k].alone.empty()) roots.families[k].alone = aloneAmong(roots, k);
     roots.cells = cells_ + extra();
     return roots;
+  }
+
+  /// A part of the region that holds all roots of a family, but none of others or undecided ones: there it is alone.
+  Box aloneAmong(const AllRoots& roots, std::size_t family) const {
+    const Box& root = roots.families[family].root;
+    Box alone = region_;
+    const auto keepsOut = [&](const Box& other) {
+      if (isApart(other, alone)) return true;
+      int at = -1;
+      double widest = 0, low = 0, high = 0;
+      for (int i = 0; i < n_; ++i) {
+        const double above = other[i].lower() - root[i].upper(), below = root[i].lower() - other[i].upper();
+        if (std::max(above, below) / units_[i] <= widest) continue;
+        widest = std::max(above, below) / units_[i];
+        at = i;
+        low = above > below ? alone[i].lower() : midpoint(Interval(other[i].upper(), root[i].lower()));
+        high = above > below ? midpoint(Interval(root[i].upper(), other[i].lower())) : alone[i].upper();
+      }
+      if (at < 0) return false;
+      alone[at] = Interval(low, high);
+      return isApart(other, alone) && isWithin(root, alone);
+    };
+    for (const auto* list : {&roots.families, &roots.border, &roots.partial})
+      for (const RootBranch& other : *list)
+        if (&other != &roots.families[family] && !keepsOut(other.root)) return {};
+    for (const UndecidedRoots& other : roots.undecided)
+      if (!keepsOut(other.states)) return {};
+    return alone;
   }
 
   /// Those that lie together, in little of the region, as one.
@@ -493,29 +525,37 @@ class Searcher {
       for (const std::size_t k : proofsFor(cell.q)) isKnown = isKnown || isWithin(cell.x, proofs_[k].alone);
       if (!isKnown) left.push_back(std::move(each));
     }
-    constexpr std::size_t most = 4000;  // pairs are compared
-    if (left.size() <= most) {
-      Joined joined(left.size());
-      for (std::size_t j = 0; j < left.size(); ++j)
-        for (std::size_t i = 0; i < j; ++i)
-          if (areNear(left[i].x, left[j].x) && areNear(left[i].q, left[j].q)) joined.join(i, j);
-      std::vector<Left> together;
-      for (const std::vector<std::size_t>& set : joined.sets()) {
-        Left all = left[set.front()];
-        for (const std::size_t k : set) {
-          all.x = hullOf(all.x, left[k].x);
-          all.q = hullOf(all.q, left[k].q);
-          all.why = std::max(all.why, left[k].why);
-        }
-        bool isLittle = true;
-        for (int i = 0; i < n_; ++i) isLittle = isLittle && width(all.x[i]) <= 0x1p-6 * units_[i];
-        if (isLittle)
-          together.push_back(std::move(all));
+    constexpr std::size_t most = 2000;
+    while (left.size() > most) {  // two that were left one after the other have been cut from one, mostly
+      std::vector<Left> half;
+      for (std::size_t k = 0; k < left.size(); ++k)
+        if (k % 2 == 0)
+          half.push_back(std::move(left[k]));
         else
-          for (const std::size_t k : set) together.push_back(left[k]);
-      }
-      left = std::move(together);
+          half.back() = {hullOf(half.back().x, left[k].x), hullOf(half.back().q, left[k].q),
+                         std::max(half.back().why, left[k].why)};
+      left = std::move(half);
     }
+    Joined joined(left.size());
+    for (std::size_t j = 0; j < left.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i)
+        if (areNear(left[i].x, left[j].x) && areNear(left[i].q, left[j].q)) joined.join(i, j);
+    std::vector<Left> together;
+    for (const std::vector<std::size_t>& set : joined.sets()) {
+      Left all = left[set.front()];
+      for (const std::size_t k : set) {
+        all.x = hullOf(all.x, left[k].x);
+        all.q = hullOf(all.q, left[k].q);
+        all.why = std::max(all.why, left[k].why);
+      }
+      bool isLittle = true;
+      for (int i = 0; i < n_; ++i) isLittle = isLittle && width(all.x[i]) <= 0x1p-6 * units_[i];
+      if (isLittle)
+        together.push_back(std::move(all));
+      else
+        for (const std::size_t k : set) together.push_back(left[k]);
+    }
+    left = std::move(together);
     for (Left& each : left) roots.undecided.push_back({std::move(each.x), allParameters(each.q), each.why});
   }
 

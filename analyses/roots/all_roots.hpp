@@ -28,6 +28,9 @@
 // other's box in which it is alone. So each two parts are compared at one p, where roots are thin; those that are one
 // make a branch. If its parts cover the box of parameters, it is a family: one root for every p.
 //
+// Of a family that has several parts `alone` is what they have in common, if that holds its roots; else a part of the
+// region in which, as the whole search shows, roots of no other branch are, nor undecided ones.
+//
 // What cannot be settled is told: double roots (where the parameters let two roots meet), what work or resolution leave
 // open, and families that may leave the region for some p. Angles are numbers: those equal mod 2π are different.
 #pragma once

@@ -438,25 +438,38 @@ std::optional<RootEquations::Proof> RootEquations::prove(Course& course) {
     }
     if (!slopesAlong(course, d, r, along, anywhere)) return {};
     bool isInside = true;
-    Box root;
+    Box root, offset;
     std::vector<double> next = r;
     for (int i = 0; i < n_; ++i) {
       Interval image = -b[i];
       for (int j = 0; j < n_; ++j) image += (Interval(i == j ? 1.0 : 0.0) - along[i * n_ + j]) * Interval(-r[j], r[j]);
       if (!isKnown(image)) return {};
       root.push_back(path[i] + image);
+      offset.push_back(image);
       isInside = isInside && magnitude(image) < r[i] && isInterior(root[i], d[i]);
       next[i] = std::max(r[i], 1.25 * magnitude(image));
     }
     if (isInside) {
       std::vector<double> halves;
       for (const Interval& each : d) halves.push_back(radius(each));
-      if (contracts(anywhere, halves)) return finished({std::move(root), d}, course.y, path, r, course.parameters);
+      if (contracts(anywhere, halves))
+        return finished({std::move(root), d, course.centre, middleOf(course.parameters), std::move(offset), course.s},
+                        course.y, path, r, course.parameters);
       if (course.isBent) return {};  // larger boxes would only be worse
     }
     r = next;
   }
   return {};
+}
+
+Box RootEquations::Proof::rootAt(const Box& q) const {
+  Box at;
+  for (std::size_t i = 0; i < root.size(); ++i) {
+    at.push_back(centre[i] + offset[i]);
+    for (std::size_t l = 0; l < q.size(); ++l) at[i] += Interval(s[i * q.size() + l]) * (q[l] - middle[l]);
+    at[i] = intersection(at[i], root[i]);
+  }
+  return at;
 }
 
 /// With the largest box in which it is alone: all its sides doubled, then each by itself; and as narrow a root box as

@@ -44,6 +44,9 @@ class RootEquations {
 
   struct Proof {
     Box root, alone;
+    Box centre, middle, offset;  ///< for q it is in centre + S (q - middle) + offset,
+    std::vector<double> s;       ///< row by row
+    Box rootAt(const Box& q) const;
   };
   /// One root for each q, near c.
   std::optional<Proof> prove(const std::vector<double>& c, const Box& q);
