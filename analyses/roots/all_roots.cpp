@@ -114,7 +114,8 @@ class Searcher {
   }
 
   AllRoots find() {
-    put({region_, partOf(widest_), 0, 0});
+    parts_.push_back({widest_});
+    put({region_, 0, 0, 0});
     while (std::optional<Cell> cell = next()) {
       const bool isCancelled = search_.cancelled != nullptr && search_.cancelled->load(std::memory_order_relaxed);
       if (isCancelled || cells_ + extra() >= search_.mostCells) {
@@ -138,13 +139,14 @@ class Searcher {
     std::vector<double> c;
     Box alone;
   };
-  /// A part of the parameters that are wide, with the proofs that hold for all of it, of the first `seen` proofs.
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  /// A part of the parameters that are wide, which is cut in the same two halves for all cells, so that what is proved
+  /// of a half is for all of them.
   struct ParameterPart {
     Box box;
-    std::vector<std::size_t> proofs;
-    std::size_t seen = 0;
-    std::vector<Failure> failures;
-    std::optional<std::size_t> cutBy;
+    std::size_t whole = none, lowerHalf = none;  // what it is half of; the upper half is the next
+    std::vector<std::size_t> proofs = {};        // for all of it
+    std::vector<Failure> failures = {};
   };
   struct Proof : RootEquations::Proof {
     Box q;
@@ -152,23 +154,17 @@ class Searcher {
   struct Left {
     Box x, q;
     Why why;
+    std::size_t part = none;  // of the parameters, q
   };
 
   std::size_t extra() const { return proofCells_; }
 
-  std::size_t partOf(const Box& box) {
-    std::vector<double> ends;
-    for (const Interval& each : box) ends.insert(ends.end(), {each.lower(), each.upper()});
-    const auto [at, isNew] = numbers_.try_emplace(ends, parts_.size());
-    if (isNew) parts_.push_back({box, {}, 0, {}, {}});
-    return at->second;
-  }
-
-  const std::vector<std::size_t>& proofsFor(std::size_t q) {
-    ParameterPart& part = parts_[q];
-    for (; part.seen < proofs_.size(); ++part.seen)
-      if (isWithin(part.box, proofs_[part.seen].q)) part.proofs.push_back(part.seen);
-    return part.proofs;
+  /// The proofs that hold for all of a part.
+  std::vector<std::size_t> proofsFor(std::size_t q) const {
+    std::vector<std::size_t> proofs;
+    for (; q != none; q = parts_[q].whole)
+      proofs.insert(proofs.end(), parts_[q].proofs.begin(), parts_[q].proofs.end());
+    return proofs;
   }
 
   // Cells of few cuts first, in heaps of some cuts each: what is hard to settle holds up nothing else. In a heap the
@@ -299,6 +295,7 @@ class Searcher {
     }
     proofCells_ += equations_.evaluations() - before;
     if (proof) {
+      parts_[cell.q].proofs.push_back(proofs_.size());
       proofs_.push_back({std::move(*proof), q});
       return Attempt::proved;
     }
@@ -368,16 +365,17 @@ class Searcher {
   }
 
   void cutParameter(const Cell& cell, std::size_t l) {
-    // As other cells of this part were, so that what is proved of the halves is for all of them.
-    l = parts_[cell.q].cutBy.value_or(l);
-    parts_[cell.q].cutBy = l;
-    const Box whole = parts_[cell.q].box;
-    const auto [lower, upper] = bisect(whole[l]);
-    for (const Interval& half : {lower, upper}) {
-      Box q = whole;
-      q[l] = half;
-      put({cell.x, partOf(q), cell.cuts, cell.parameterCuts + 1});
+    if (parts_[cell.q].lowerHalf == none) {
+      const Box whole = parts_[cell.q].box;
+      const auto [lower, upper] = bisect(whole[l]);
+      parts_[cell.q].lowerHalf = parts_.size();
+      for (const Interval& half : {lower, upper}) {
+        parts_.push_back({whole, cell.q});
+        parts_.back().box[l] = half;
+      }
     }
+    const std::size_t lower = parts_[cell.q].lowerHalf;
+    for (const std::size_t half : {lower, lower + 1}) put({cell.x, half, cell.cuts, cell.parameterCuts + 1});
   }
 
   /// Where F varies most; if that is by a parameter that is as narrow as parameters become, states would be cut in
@@ -403,7 +401,7 @@ class Searcher {
     put(std::move(cell));
   }
 
-  void leave(Cell cell, Why why) { left_.push_back({std::move(cell.x), parts_[cell.q].box, why}); }
+  void leave(Cell cell, Why why) { left_.push_back({std::move(cell.x), parts_[cell.q].box, why, cell.q}); }
 
   enum class Relation { same, different, unknown };
 
@@ -520,9 +518,8 @@ class Searcher {
   void tellUndecided(AllRoots& roots) {
     std::vector<Left> left;
     for (Left& each : left_) {
-      Cell cell{each.x, partOf(each.q), 0, 0};
       bool isKnown = false;
-      for (const std::size_t k : proofsFor(cell.q)) isKnown = isKnown || isWithin(cell.x, proofs_[k].alone);
+      for (const std::size_t k : proofsFor(each.part)) isKnown = isKnown || isWithin(each.x, proofs_[k].alone);
       if (!isKnown) left.push_back(std::move(each));
     }
     constexpr std::size_t most = 2000;
@@ -565,7 +562,6 @@ class Searcher {
   std::vector<double> units_;
   int n_;
   std::vector<ParameterPart> parts_;
-  std::map<std::vector<double>, std::size_t> numbers_;  // of parts_
   std::vector<std::vector<Cell>> heaps_;
   std::size_t finest_, cells_ = 0, proofCells_ = 0;
   std::vector<Proof> proofs_;
