@@ -47,28 +47,6 @@ Box commonOf(Box a, const Box& b) {
   return a;
 }
 
-/// Whether these boxes leave no part of the whole with an interior (of its sides that are not thin).
-bool cover(const Box& whole, const std::vector<const Box*>& boxes) {
-  for (const Box* box : boxes)
-    if (isWithin(whole, *box)) return true;
-  for (const Box* box : boxes) {
-    bool meets = true;
-    for (std::size_t i = 0; i < whole.size(); ++i)
-      meets =
-          meets && !isDisjoint(whole[i], (*box)[i]) && (isThin(whole[i]) || !isThin(intersection(whole[i], (*box)[i])));
-    if (!meets) continue;
-    for (std::size_t i = 0; i < whole.size(); ++i)
-      for (const double face : {(*box)[i].lower(), (*box)[i].upper()})
-        if (whole[i].lower() < face && face < whole[i].upper()) {
-          Box lower = whole, upper = whole;
-          lower[i] = Interval(whole[i].lower(), face);
-          upper[i] = Interval(face, whole[i].upper());
-          return cover(lower, boxes) && cover(upper, boxes);
-        }
-  }
-  return false;
-}
-
 /// Sets of numbers that were joined.
 class Joined {
  public:
@@ -150,6 +128,7 @@ class Searcher {
   };
   struct Proof : RootEquations::Proof {
     Box q;
+    std::size_t part;
   };
   struct Left {
     Box x, q;
@@ -296,7 +275,7 @@ class Searcher {
     proofCells_ += equations_.evaluations() - before;
     if (proof) {
       parts_[cell.q].proofs.push_back(proofs_.size());
-      proofs_.push_back({std::move(*proof), q});
+      proofs_.push_back({std::move(*proof), q, cell.q});
       return Attempt::proved;
     }
     std::vector<Failure>& failures = parts_[cell.q].failures;
@@ -434,6 +413,13 @@ class Searcher {
     return root;
   }
 
+  /// Whether these parts of the parameters leave nothing of one.
+  bool cover(const std::vector<char>& isPart, std::size_t part) const {
+    if (isPart[part] != 0) return true;
+    const std::size_t lower = parts_[part].lowerHalf;
+    return lower != none && cover(isPart, lower) && cover(isPart, lower + 1);
+  }
+
   Box allParameters(const Box& q) const {
     Box all = parameters_;
     for (std::size_t l = 0; l < q.size(); ++l) all[equations_.wide()[l]] = q[l];
@@ -459,19 +445,19 @@ class Searcher {
       if (joined.first(i) == joined.first(j)) isTwofold[joined.first(i)] = 1;
     for (const std::vector<std::size_t>& set : joined.sets()) {
       RootBranch branch;
-      std::vector<const Box*> qs;
+      std::vector<char> isPart(parts_.size(), 0);
       bool isInside = true, isOutside = true;
       for (const std::size_t k : set) {
         const Proof& proof = proofs_[k];
         branch.root = branch.parts.empty() ? proof.root : hullOf(branch.root, proof.root);
         branch.alone = branch.parts.empty() ? proof.alone : commonOf(branch.alone, proof.alone);
         branch.parts.push_back({allParameters(proof.q), proof.root, proof.alone});
-        qs.push_back(&proof.q);
+        isPart[proof.part] = 1;
         isInside = isInside && isWithin(proof.root, region_);
         isOutside = isOutside && isApart(proof.root, region_);
       }
       if (isOutside) continue;
-      const bool isEverywhere = isTwofold[set.front()] == 0 && cover(widest_, qs);
+      const bool isEverywhere = isTwofold[set.front()] == 0 && cover(isPart, 0);
       if (!isEverywhere || !isWithin(branch.root, branch.alone)) branch.alone.clear();
       (!isInside ? roots.border : isEverywhere ? roots.families : roots.partial).push_back(std::move(branch));
     }

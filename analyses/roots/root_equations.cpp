@@ -172,9 +172,12 @@ bool RootEquations::step(Box& x, const Box& q) {
   for (int i = 0; i < n_; ++i) {
     if (isEmpty(slopes_[i]) || isDisjoint(slopes_[i], Interval(0.0))) return false;
     Interval range = value_[i];
-    for (int j = 0; j < size_; ++j)
+    bool isBounded = true;
+    for (int j = 0; j < size_; ++j) {
+      isBounded = isBounded && isKnown(slope(i, j));
       range += slope(i, j) * (j < n_ ? x[j] - m[j] : q[j - n_] - Interval(midpoint(q[j - n_])));
-    range = intersection(range, slopes_[i]);
+    }
+    range = isBounded ? intersection(range, slopes_[i]) : slopes_[i];
     if (!contains(range, 0.0)) return false;
     isRounding_ = isRounding_ && 2 * width(value_[i]) >= width(range);
   }

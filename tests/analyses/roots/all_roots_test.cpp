@@ -645,6 +645,21 @@ TEST(AllRoots, AreRightWhereFunctionsEndJumpOrBend) {
   // A kink in the root, where the slope is positive on both sides.
   expect([](const auto& x, const auto& p) { return 2.0 * x + abs(x) - p; }, Interval(-0.5, 0.5),
          [](const Number& p) { return Points{{p < 0 ? p : Number(p / 3)}}; });
+  // No derivative at the root: it is left, however narrow its cell.
+  const auto expectLeft = [](const Program& f, const Box& box) {
+    const AllRoots left = allRoots(f, box, {});
+    EXPECT_TRUE(left.families.empty());
+    expectNoneMissed(left, box, {}, {Point(box.size(), Number(0))});
+  };
+  const Program length = record<1>([](const auto& x) { return sqrt(sqr(x[0])); });
+  expectLeft(length, {Interval(-1, 1)});
+  expectLeft(length, {Interval(0.0)});
+  expectLeft(record<1>([](const auto& x) { return sqrt(x[0]); }), {Interval(-1, 1)});
+  const Program distance = record<2>([](const auto& x, const auto& y) {
+    return std::array<Recorded, 2>{hypot(x, y), x - y};
+  });
+  expectLeft(distance, {Interval(-1, 1), Interval(-2, 1)});
+  expectLeft(distance, {Interval(0.0), Interval(-2, 1)});
   // A sign that leaps over zero takes it where it jumps, for it is 0 there: never "none".
   const AllRoots leap = found([](const auto& x, const auto& p) { return p * sign(x) + x; }, half);
   EXPECT_TRUE(leap.families.empty());
