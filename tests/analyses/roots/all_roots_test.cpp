@@ -175,6 +175,24 @@ TEST(AllRoots, HoldForAllParameters) {
   }
 }
 
+/// Two roots that move by more than they are apart: each where the other was.
+TEST(AllRoots, KeepsRootsApartThatFollowTheParameters) {
+  const Box region{Interval(-1, 2)};
+  for (const double apart : {0.05, 0.3, 0.6})
+    for (const double bend : {0.0, 0.1}) {
+      const Program f = record(1, 1, 1, [&](auto, const auto& x, const auto& p, auto& y) {
+        const Recorded off = x[0] - p[0] - bend * sin(3.0 * p[0]);
+        y[0] = off * (off - apart);
+      });
+      const Box parameters{Interval(0, 0.5)};
+      const AllRoots found = allRoots(f, region, parameters);
+      for (const Point& p : pointsOf(parameters, 60)) {
+        const Number first = p[0] + bend * sin(3 * p[0]);
+        expectAll(found, region, p, {{first}, {first + apart}});
+      }
+    }
+}
+
 TEST(AllRoots, TellsWhereParametersLetRootsMeet) {
   const Box region{Interval(-4, 4)};
   for (const Interval& of : {Interval(-1, 3), Interval(0, 1), Interval(-1, 0), Interval(0.0)}) {
