@@ -1,6 +1,6 @@
 #include "analyses/roots/hull_consistency.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
 #include "scalars/operations/all.hpp"
@@ -15,19 +15,24 @@ Interval eitherSign(const Interval& of, const Interval& within) {
   return hull(intersection(within, of), intersection(within, -of));
 }
 
-/// What of x has its sine in y: asin y + 2kπ and π - asin y + 2kπ. The first lie within π/2 of 2kπ, the others within
-/// [π/2, 3π/2] behind: so k is from x/2π - 3/4 to x/2π + 1/4, here by a thousandth more.
-Interval arcsWithin(const Interval& y, const Interval& x) {
-  constexpr double widest = 64, farthest = 1e9, turn = 6.283185307179586;  // rad
-  const Interval arc = asin(y);
-  if (isEmpty(arc) || !(width(x) <= widest && magnitude(x) <= farthest)) return isEmpty(arc) ? arc : x;
-  Interval all = Interval::empty();
-  const double last = std::floor(x.upper() / turn + 0.251);
-  for (double k = std::ceil(x.lower() / turn - 0.751); k <= last; ++k) {
-    const Interval turns = k * twoPi();
-    all = hull(all, hull(intersection(x, turns + arc), intersection(x, turns + pi() - arc)));
+/// The function of op, which may be the second of twins.
+Interval valueOf(Op op, const Interval& a) {
+  Interval first(0.0), second(0.0);
+  withFunction(isTwin(op) ? before(op) : op, [&](auto f) { evaluate(f, a, first, second); });
+  return isTwin(op) ? second : first;
+}
+
+/// What of a bounded `within` has its value in v, of any function: slices at both ends whose values miss it are cut
+/// off.
+Interval argumentsWithin(Op op, const Interval& v, const Interval& within) {
+  constexpr int cuts = 6;
+  double lower = within.lower(), upper = within.upper();
+  double slice = (upper - lower) / 2;
+  for (int k = 0; k < cuts && lower < upper; ++k, slice /= 2) {
+    if (const double to = std::min(lower + slice, upper); isDisjoint(valueOf(op, Interval(lower, to)), v)) lower = to;
+    if (const double to = std::max(upper - slice, lower); isDisjoint(valueOf(op, Interval(to, upper)), v)) upper = to;
   }
-  return all;
+  return {lower, upper};
 }
 
 }  // namespace
@@ -148,26 +153,16 @@ bool HullConsistency::goBack(int i) {
       return narrow(n.a, quotientWithin(Interval(1.0), v, a));
     case Op::sqrt:
       return narrow(n.a, sqr(intersection(v, nonnegative)));
-    case Op::exp:
-      return narrow(n.a, log(v));
-    case Op::log:
-      return narrow(n.a, exp(v));
     case Op::atan:
       return narrow(n.a, tan(v));
-    case Op::tanh:
-      return narrow(n.a, atanh(v));
     case Op::abs:
       return narrow(n.a, eitherSign(intersection(v, nonnegative), a));
     case Op::sign:
       if (v.lower() > 0) return narrow(n.a, nonnegative);
       if (v.upper() < 0) return narrow(n.a, -nonnegative);
       return true;
-    case Op::sin:
-      return narrow(n.a, arcsWithin(v, a));
-    case Op::cos:  // sin(a + π/2)
-      return narrow(n.a, arcsWithin(v, a + halfPi()) - halfPi());
     default:
-      return true;
+      return !isFunction(n.op) || !isBounded(a) || narrow(n.a, argumentsWithin(n.op, v, a));
   }
 }
 
