@@ -16,7 +16,7 @@ Interval eitherSign(const Interval& of, const Interval& within) {
 }
 
 /// The function of op, which may be the second of twins.
-Interval valueOf(Op op, const Interval& a) {
+Interval functionAt(Op op, const Interval& a) {
   Interval first(0.0), second(0.0);
   withFunction(isTwin(op) ? before(op) : op, [&](auto f) { evaluate(f, a, first, second); });
   return isTwin(op) ? second : first;
@@ -29,8 +29,10 @@ Interval argumentsWithin(Op op, const Interval& v, const Interval& within) {
   double lower = within.lower(), upper = within.upper();
   double slice = (upper - lower) / 2;
   for (int k = 0; k < cuts && lower < upper; ++k, slice /= 2) {
-    if (const double to = std::min(lower + slice, upper); isDisjoint(valueOf(op, Interval(lower, to)), v)) lower = to;
-    if (const double to = std::max(upper - slice, lower); isDisjoint(valueOf(op, Interval(to, upper)), v)) upper = to;
+    if (const double to = std::min(lower + slice, upper); isDisjoint(functionAt(op, Interval(lower, to)), v))
+      lower = to;
+    if (const double to = std::max(upper - slice, lower); isDisjoint(functionAt(op, Interval(to, upper)), v))
+      upper = to;
   }
   return {lower, upper};
 }

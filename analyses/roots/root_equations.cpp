@@ -38,7 +38,7 @@ Program withStates(const Program& f, const Box& parameters) {
                 });
 }
 
-Box middleOf(const Box& box) {
+Box middlesOf(const Box& box) {
   Box middle;
   for (const Interval& each : box) middle.emplace_back(midpoint(each));
   return middle;
@@ -165,8 +165,8 @@ Box RootEquations::moved(const Matrix& y, const Box& values, const Box& q) {
 
 bool RootEquations::step(Box& x, const Box& q) {
   evaluateSlopes(x, q);
-  const Box m = middleOf(x);
-  values_(time_, std::span<const Interval>(joint(m, middleOf(q))), std::span<Interval>(value_));
+  const Box m = middlesOf(x);
+  values_(time_, std::span<const Interval>(joint(m, middlesOf(q))), std::span<Interval>(value_));
   std::ranges::fill(spread_, 0.0);
   isRounding_ = true;
   for (int i = 0; i < n_; ++i) {
@@ -284,7 +284,7 @@ struct RootEquations::Course {
 
 std::optional<RootEquations::Proof> RootEquations::prove(const std::vector<double>& c, const Box& q) {
   const Box centre(c.begin(), c.end());
-  const Box middle = middleOf(q);
+  const Box middle = middlesOf(q);
   if (!consistency_.isTameOn(joint(centre, middle))) return {};
   evaluateSlopes(centre, middle);
   const std::optional<Matrix> y = inverseOfMiddle();
@@ -456,7 +456,7 @@ std::optional<RootEquations::Proof> RootEquations::prove(Course& course) {
       std::vector<double> halves;
       for (const Interval& each : d) halves.push_back(radius(each));
       if (contracts(anywhere, halves))
-        return finished({std::move(root), d, course.centre, middleOf(course.parameters), std::move(offset), course.s},
+        return finished({std::move(root), d, course.centre, middlesOf(course.parameters), std::move(offset), course.s},
                         course.y, path, r, course.parameters);
       if (course.isBent) return {};  // larger boxes would only be worse
     }

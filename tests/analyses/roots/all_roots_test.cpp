@@ -440,6 +440,7 @@ TEST(AllRoots, OfASnapThroughInThePlaneAreFound) {
     const Box parameters = boxOf({1000, 1200, 0.25, 0.25, 0.2, 2}, share);
     const AllRoots found = allRoots(f, region, parameters);
     EXPECT_EQ(found.families.size(), 3U);
+    EXPECT_LT(found.cells, 3000U);  // some 100000 are a second
     for (const Point& p : pointsOf(parameters, 12)) {
       std::vector<Point> exact = rootsFromManyStarts(f, region, p, 40);
       EXPECT_GE(std::ranges::count_if(exact, [&](const Point& x) { return holds(region, x); }), 3);
@@ -477,6 +478,7 @@ TEST(AllRoots, OfThreeLinksAreBothElbows) {
       }
       expectAll(found, region, p, exact);
       EXPECT_EQ(found.families.size() > 2, more);
+      EXPECT_LT(found.cells, more ? 30000U : 1000U);
     }
   }
 }
@@ -548,7 +550,7 @@ TEST(AllRoots, OfAnArmOfSixJointsAreItsEightPostures) {
     y[5] = left.z;
   });
   const std::vector<double> lengths{0.4318, -0.0203, 0.4318, 0.1501};
-  for (const double share : {0.0, 1e-4}) {
+  for (const double share : {0.0, 1e-4, 3e-3}) {
     const std::vector<double> of{0.3, -0.6, 0.4, 0.7, 0.9, -0.5};
     const auto [place, turn] = hand<double>(of, lengths);
     Box parameters = boxOf(lengths, share);
@@ -557,6 +559,7 @@ TEST(AllRoots, OfAnArmOfSixJointsAreItsEightPostures) {
     const Box region(6, Interval(-3.14159, 3.14159));
     const AllRoots found = allRoots(f, region, parameters);
     EXPECT_EQ(found.families.size(), 8U);
+    EXPECT_LT(found.cells, 40000U);
     for (const Point& p : pointsOf(parameters, 10)) expectAll(found, region, p, posturesOf(p));
   }
 }
