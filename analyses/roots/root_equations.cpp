@@ -292,7 +292,11 @@ std::optional<RootEquations::Proof> RootEquations::prove(const std::vector<doubl
   Course course{q, *y, centre, slopes_, {}, Matrix(n_ * (size_ - n_), 0.0), false};
   Matrix along;
   for (int i = 0; i < n_; ++i)
-    for (int l = n_; l < size_; ++l) along.push_back(-midpoint(preconditioned(*y, i, l)));
+    for (int l = n_; l < size_; ++l) {
+      const Interval moves = preconditioned(*y, i, l);
+      if (!isKnown(moves)) return {};
+      along.push_back(-midpoint(moves));
+    }
   for (const Interval& each : q) course.shift.push_back(each - Interval(midpoint(each)));
   std::optional<Proof> proof = prove(course);
   if (proof || q.empty()) return proof;

@@ -666,6 +666,11 @@ TEST(AllRoots, AreRightWhereFunctionsEndJumpOrBend) {
   // A kink in the root, where the slope is positive on both sides.
   expect([](const auto& x, const auto& p) { return 2.0 * x + abs(x) - p; }, Interval(-0.5, 0.5),
          [](const Number& p) { return Points{{p < 0 ? p : Number(p / 3)}}; });
+  // Nothing is known of how a root moves where the parameter has no value on one side.
+  const AllRoots oneSided = found([](const auto& x, const auto& p) { return x - sqrt(p); }, Interval(-1, 1));
+  EXPECT_TRUE(oneSided.families.empty());
+  for (const Point& p : pointsOf({Interval(-1, 1)}, 30))
+    expectNoneMissed(oneSided, region, p, p[0] < 0 ? Points{} : Points{{sqrt(p[0])}});
   // No derivative at the root: it is left, however narrow its cell.
   const auto expectLeft = [](const Program& f, const Box& box) {
     const AllRoots left = allRoots(f, box, {});
