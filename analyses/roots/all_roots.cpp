@@ -237,9 +237,12 @@ class Searcher {
       for (int j = 0; j < size; ++j) {
         const double w = width(j < n_ ? cell.x[j] : q[j - n_]);
         const double most = w == 0 ? 0 : magnitude(equations_.slope(i, j)) * w;
-        by.push_back(std::isfinite(most) ? most : 1e300);
-        sum += by.back();
+        by.push_back(most);
+        if (std::isfinite(most)) sum += most;
       }
+      const double rest = std::max(width(equations_.range(i)) - sum, 0.0);  // where derivatives are not bounded
+      for (double& each : by)
+        if (!std::isfinite(each)) sum += each = std::isfinite(rest) ? rest : 1e300;
       if (!(sum > 0)) continue;
       for (std::size_t j = 0; j < scores.size(); ++j) scores[j] += by[ofStates ? j : j + n_] / sum;
     }

@@ -31,7 +31,8 @@ class RootEquations {
 
   /// One step of Newton's method, where F is tame over x × q; false where no root is left.
   bool step(Box& x, const Box& q);
-  // Of the last step:
+  // Of the last step, over all that x was:
+  const Interval& range(int output) const { return slopes_[output]; }
   const Interval& slope(int output, int variable) const { return slopes_[n_ + output * size_ + variable]; }
   /// How far roots may move with q, in x_i.
   const std::vector<double>& spread() const { return spread_; }

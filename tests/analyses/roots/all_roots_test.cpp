@@ -671,6 +671,11 @@ TEST(AllRoots, AreRightWhereFunctionsEndJumpOrBend) {
   EXPECT_TRUE(oneSided.families.empty());
   for (const Point& p : pointsOf({Interval(-1, 1)}, 30))
     expectNoneMissed(oneSided, region, p, p[0] < 0 ? Points{} : Points{{sqrt(p[0])}});
+  expect([](const auto& x, const auto& p) { return sqr(x) - 0.25 - 3.0 * sqrt(sqr(p)); }, Interval(-1, 1),
+         [](const Number& p) {
+           const Number root = sqrt(Number(0.25) + 3 * abs(p));
+           return Points{{root}, {-root}};
+         });
   // No derivative at the root: it is left, however narrow its cell.
   const auto expectLeft = [](const Program& f, const Box& box) {
     const AllRoots left = allRoots(f, box, {});
