@@ -731,7 +731,7 @@ TEST(AllRoots, OfRandomEquationsAreFound) {
   std::mt19937_64 engine(3);
   const auto draw = [&] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1; };
   int families = 0;
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < 12; ++k) {
     std::array<double, 14> c;
     for (double& each : c) each = draw();
     const Program f = record(2, 2, 2, [&](auto, const auto& x, const auto& p, auto& y) {
@@ -747,7 +747,7 @@ TEST(AllRoots, OfRandomEquationsAreFound) {
     for (const Point& p : pointsOf(parameters, 4))
       expectNoneMissed(found, region, p, rootsFromManyStarts(f, Box(2, Interval(-4, 4)), p, 40), Known::some);
   }
-  EXPECT_GT(families, 15);
+  EXPECT_GT(families, 8);
 }
 
 TEST(AllRoots, AreTheSameAgain) {
