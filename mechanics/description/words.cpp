@@ -13,7 +13,10 @@ class Listener final : public Fields {
   Listener(ElementWords& words, Coordinate kind) : words_(words), kind_(kind) {}
 
   void frame(const Word& word, std::string& /*name*/) override { required(word); }
-  void movedFrame(const Word& word, std::string& /*name*/, const std::string& /*from*/) override { required(word); }
+  /// One that has the element's own name is said with that.
+  void movedFrame(const Word& word, std::string& /*name*/, const std::string& /*from*/) override {
+    if (word.key != "name") required(word);
+  }
   void choice(const Word& word, std::string& /*value*/, const std::vector<std::string>& /*choices*/) override {
     key(word);
   }

@@ -38,6 +38,10 @@ std::vector<Described> elementTypes() {
   types.emplace_back(State{});
   types.emplace_back(Distance{});
   types.emplace_back(RelativeMotion{});
+  types.emplace_back(Sphere{});
+  types.emplace_back(Capsule{});
+  types.emplace_back(Cuboid{});
+  types.emplace_back(Separation{});
   return types;
 }
 

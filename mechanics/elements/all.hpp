@@ -2,7 +2,9 @@
 #pragma once
 
 #include "mechanics/element_types.hpp"
+#include "mechanics/elements/box.hpp"
 #include "mechanics/elements/bushing.hpp"
+#include "mechanics/elements/capsule.hpp"
 #include "mechanics/elements/closure.hpp"
 #include "mechanics/elements/coupling.hpp"
 #include "mechanics/elements/cylindrical.hpp"
@@ -26,7 +28,9 @@
 #include "mechanics/elements/rolling_ball.hpp"
 #include "mechanics/elements/rolling_wheel.hpp"
 #include "mechanics/elements/screw.hpp"
+#include "mechanics/elements/separation.hpp"
 #include "mechanics/elements/skate.hpp"
+#include "mechanics/elements/sphere.hpp"
 #include "mechanics/elements/spherical.hpp"
 #include "mechanics/elements/spring.hpp"
 #include "mechanics/elements/state.hpp"

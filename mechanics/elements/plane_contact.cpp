@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "mechanics/assembler.hpp"
+#include "mechanics/elements/seen.hpp"
 #include "mechanics/load_on_axis.hpp"
 
 namespace gamut {
@@ -23,33 +24,6 @@ Axis across(const Axis& axis) {
   result[order[1]] = -d[order[2]];
   result[order[2]] = d[order[1]];
   return Axis(result[0], result[1], result[2]);
-}
-
-/// What a frame is like for another one that it hangs on.
-template <class S>
-struct SeenFrame {
-  MovingPoint<S> point;
-  TurningAxes<S> turning;
-};
-
-template <class S>
-SeenFrame<S> seenFrom(const Frame<S>* base, const Frame<S>* frame, const Vector3<S>& point) {
-  SeenFrame<S> seen{{point, zeroVector<S>()}, {}};
-  for (; frame != base; frame = &frame->origin->from()) {
-    seen.point = frame->origin->inFrom(seen.point);
-    seen.turning = frame->origin->axesInFrom(seen.turning);
-  }
-  return seen;
-}
-
-/// The outermost frame that both hang on.
-template <class S>
-const Frame<S>* commonBase(const Frame<S>* a, const Frame<S>* b) {
-  const auto inner = [](const Frame<S>* frame) { return frame->origin ? &frame->origin->from() : nullptr; };
-  for (; a; a = inner(a))
-    for (const Frame<S>* other = b; other; other = inner(other))
-      if (a == other) return a;
-  return nullptr;  // not of one mechanism
 }
 
 template <class S>

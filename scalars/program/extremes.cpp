@@ -7,11 +7,6 @@ namespace gamut {
 
 namespace {
 
-bool isHalf(const Program& program, int node) {
-  const Node& of = program.nodes()[node];
-  return of.op == Op::constant && isEqual(program.constants()[of.a], Interval(0.5));
-}
-
 /// a and b of which `sum` is the sum and `difference` the difference, either way round.
 std::optional<Extreme> partsOf(const Program& program, int sum, int difference) {
   if (sum == difference) return Extreme{.a = sum, .b = sum, .byA = 1, .byB = 0};  // b is zero
@@ -27,9 +22,7 @@ std::optional<Extreme> partsOf(const Program& program, int sum, int difference) 
 std::vector<Extreme> extremesOf(const Program& program) {
   std::vector<Extreme> found;
   for (std::size_t i = 0; i < program.nodes().size(); ++i) {
-    const Node& node = program.nodes()[i];
-    if (node.op != Op::mul || !(isHalf(program, node.a) || isHalf(program, node.b))) continue;
-    const Node& twice = program.nodes()[isHalf(program, node.a) ? node.b : node.a];
+    const Node& twice = program.nodes()[i];
     const auto isAbs = [&](int operand) { return program.nodes()[operand].op == Op::abs; };
     std::optional<Extreme> extreme;
     const auto consider = [&](int sum, int absolute, bool isMax) {

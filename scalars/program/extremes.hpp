@@ -1,5 +1,5 @@
 // The greater or lesser of two numbers, ½(a + b ± |a - b|) as max and min of Recorded write it: by intervals that
-// formula is wider than the range of either.
+// formula is wider than the range of either. The half may have gone elsewhere, into a product.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace gamut {
 
-/// A node of a program that is max(a, b) or min(a, b), a and b nodes with a factor of 1, -1 or 0.
+/// A node of a program that is twice max(a, b) or min(a, b), a and b nodes with a factor of 1, -1 or 0.
 struct Extreme {
   int node = -1;
   bool isMax = true;

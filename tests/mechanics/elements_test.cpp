@@ -83,6 +83,10 @@ Mechanism withOneOfEach() {
   m.add(Motor{"geared", "hinge", Expression::parse("0.2 N m - 0.1 N m s * hinge.rate"), 5.0, 0.01, 0.02});
   m.add(Distance{"gap", "inertial", "E"});
   m.add(RelativeMotion{"seen", "A", "E", axisZ});
+  m.add(Sphere{"ball", "E", 0.125});
+  m.add(Capsule{"upright", "A", 0.25, 1.0, axisZ});
+  m.add(Cuboid{"block", "inertial", {0.5, 0.5, 0.5}, {0.0, 3.0, 0.0}});
+  m.add(Separation{"apart", "upright", "ball"});
   m.setGravity({0.0, 0.0, -9.81});
   return m;
 }

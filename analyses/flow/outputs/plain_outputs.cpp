@@ -65,12 +65,13 @@ bool areDefined(const std::vector<Interval>& found, std::size_t values) {
 /// The first of `found`, if it has a value.
 Interval valueOf(const std::vector<Interval>& found) { return areDefined(found, 1) ? found[0] : Interval::empty(); }
 
-/// The greater is as large as either at least, and no larger than both may be; the lesser likewise.
+/// Twice the extreme: the greater is as large as either at least, and no larger than both may be; the lesser likewise.
 Interval rangeOf(const Extreme& extreme, const Interval& a, const Interval& b) {
   const Interval u = Interval(extreme.byA) * a, v = Interval(extreme.byB) * b;
   if (isEmpty(u) || isEmpty(v)) return Interval::empty();
-  return extreme.isMax ? Interval(std::max(u.lower(), v.lower()), std::max(u.upper(), v.upper()))
-                       : Interval(std::min(u.lower(), v.lower()), std::min(u.upper(), v.upper()));
+  const Interval one = extreme.isMax ? Interval(std::max(u.lower(), v.lower()), std::max(u.upper(), v.upper()))
+                                     : Interval(std::min(u.lower(), v.lower()), std::min(u.upper(), v.upper()));
+  return Interval(2.0) * one;
 }
 
 }  // namespace

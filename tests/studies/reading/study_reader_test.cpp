@@ -974,14 +974,16 @@ constexpr BadStudy badStudies[] = {
      "link, closure, rod, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, "
      "joint-stop, "
      "rigid-stop, plane-contact, "
-     "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion)"},
+     "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion, "
+     "sphere, capsule, box, separation)"},
     {"type = \"revolute\"", "",
      "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, screw, "
      "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, "
      "link, closure, rod, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, "
      "joint-stop, "
      "rigid-stop, plane-contact, "
-     "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion"},
+     "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion, "
+     "sphere, capsule, box, separation"},
     {"axis = \"x\"", "axis = \"w\"",
      "s.toml:14:8: mechanism.element.axis is \"w\"; expected 'x'? (one of: x, y, z, -x, -y, -z)"},
     {"axis = \"x\"", "axis = [0, 0, 0]",

@@ -1,0 +1,36 @@
+#include "mechanics/elements/capsule.hpp"
+
+#include "mechanics/assembler.hpp"
+#include "mechanics/elements/shape_frame.hpp"
+
+namespace gamut {
+
+void Capsule::describe(Fields& f) {
+  f.frame({"at", "", "the frame that carries it"}, at);
+  f.movedFrame({"name", "", "the shape's own frame"}, name, at);
+  f.number({"radius", "m", "0, a segment, unless given"}, radius);
+  f.number({"length", "m", "of the segment, from the centre of one end to that of the other", true}, length);
+  f.axis({"axis", "", "of the segment, in `at`; `\"z\"` unless given"}, axis);
+  f.vector({"centre", "m", "the middle of the segment, in `at`; its origin unless given"}, centre);
+}
+
+template <class S>
+void Capsule::assemble(Assembler<S>& a) const {
+  Outline<S> outline{ShapeCore::segment, a.number(radius), axis.unit<S>()};
+  outline.halves[0] = S(0.5) * a.number(length);
+  if (isKnownZero(outline.halves[0])) outline.core = ShapeCore::point;
+  a.template add<ShapeFrame<S>>(a.frame(at), a.frame(name), Place<S>{{}, a.vector(centre)}, outline);
+}
+
+std::vector<Fault> Capsule::faults(const RangeOf& rangeOf) const {
+  std::vector<Fault> found;
+  if (rangeOf(radius).lower() < 0)
+    found.push_back({"radius", "the radius of '" + name + "' is negative", "a radius of at least 0 m"});
+  if (rangeOf(length).lower() < 0)
+    found.push_back({"length", "the length of '" + name + "' is negative", "a length of at least 0 m"});
+  return found;
+}
+
+GAMUT_ASSEMBLE(Capsule)
+
+}  // namespace gamut

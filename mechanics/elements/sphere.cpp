@@ -1,0 +1,29 @@
+#include "mechanics/elements/sphere.hpp"
+
+#include "mechanics/assembler.hpp"
+#include "mechanics/elements/shape_frame.hpp"
+
+namespace gamut {
+
+void Sphere::describe(Fields& f) {
+  f.frame({"at", "", "the frame that carries it"}, at);
+  f.movedFrame({"name", "", "the shape's own frame"}, name, at);
+  f.number({"radius", "m", "0, a point, unless given"}, radius);
+  f.vector({"centre", "m", "in `at`; its origin unless given"}, centre);
+}
+
+template <class S>
+void Sphere::assemble(Assembler<S>& a) const {
+  Outline<S> outline;
+  outline.radius = a.number(radius);
+  a.template add<ShapeFrame<S>>(a.frame(at), a.frame(name), Place<S>{{}, a.vector(centre)}, outline);
+}
+
+std::vector<Fault> Sphere::faults(const RangeOf& rangeOf) const {
+  if (rangeOf(radius).lower() >= 0) return {};
+  return {{"radius", "the radius of '" + name + "' is negative", "a radius of at least 0 m"}};
+}
+
+GAMUT_ASSEMBLE(Sphere)
+
+}  // namespace gamut

@@ -1,0 +1,268 @@
+// Distances of shapes against closed forms, and against the nearest points of segments found by clamping, in a hundred
+// digits (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9): no tolerance.
+#include "mechanics/elements/separation.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <random>
+
+#include "mechanics/assembly.hpp"
+#include "mechanics/elements/all.hpp"
+#include "mechanics/model.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::HasSubstr;
+using Real = boost::multiprecision::cpp_bin_float_100;
+using Vector = std::array<Real, 3>;
+using Place = std::array<double, 3>;
+
+Real dot(const Vector& x, const Vector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
+Vector along(const Vector& x, const Vector& y, const Real& s) {
+  return {x[0] + s * y[0], x[1] + s * y[1], x[2] + s * y[2]};
+}
+Real clamped(const Real& s, const Real& most) { return s < -most ? Real(-most) : s > most ? most : s; }
+
+struct Rod {
+  Place middle, direction;
+  double radius = 0, length = 0;
+
+  Vector centre() const { return {middle[0], middle[1], middle[2]}; }
+  Vector unit() const {
+    const Vector d{direction[0], direction[1], direction[2]};
+    const Real size = sqrt(dot(d, d));
+    return {d[0] / size, d[1] / size, d[2] / size};
+  }
+  Real half() const { return Real(length) / 2; }
+  Capsule capsule(const std::string& name) const {
+    return {name,
+            "inertial",
+            radius,
+            length,
+            Axis(direction[0], direction[1], direction[2]),
+            {middle[0], middle[1], middle[2]}};
+  }
+};
+
+Real distanceOf(const Rod& one, const Rod& other) {
+  const Vector a = one.unit(), b = other.unit(), w = along(one.centre(), other.centre(), Real(-1));
+  const Real g = dot(a, b), size = 1 - g * g;
+  Real s = size > Real("1e-60") ? clamped((g * dot(b, w) - dot(a, w)) / size, one.half()) : Real(0);
+  const Real t = clamped(dot(b, w) + g * s, other.half());
+  s = clamped(g * t - dot(a, w), one.half());
+  const Vector d = along(along(w, a, s), b, -t);
+  return sqrt(dot(d, d)) - one.radius - other.radius;
+}
+
+Mechanism pairOf(const Described& one, const Described& other) {
+  Mechanism m;
+  m.add(State{"x"});
+  m.add(one);
+  m.add(other);
+  m.add(Separation{"apart", one.name(), other.name()});
+  return m;
+}
+
+Interval enclosedDistance(const Mechanism& m) { return Assembly<Interval>(m).output("apart.distance"); }
+Interval enclosedDistance(const Rod& one, const Rod& other) {
+  return enclosedDistance(pairOf(one.capsule("one"), other.capsule("other")));
+}
+
+bool holds(const Interval& x, const Real& value) { return Real(x.lower()) <= value && value <= Real(x.upper()); }
+
+// ---- Closed forms ---------------------------------------------------------------------------------------------------
+
+TEST(Separation, OfSpheresIsThatOfTheirCentresWithoutTheirRadii) {
+  const Mechanism m =
+      pairOf(Sphere{"one", "inertial", 0.25, {1.0, 2.0, 0.0}}, Sphere{"other", "inertial", 0.5, {4.0, 6.0, 0.0}});
+  EXPECT_TRUE(isEqual(enclosedDistance(m), Interval(4.25)));
+  EXPECT_EQ(Assembly<double>(m).output("apart.distance"), 4.25);
+  const Mechanism same = pairOf(Sphere{"one", "inertial", 0.25}, Sphere{"other", "inertial", 0.5});
+  EXPECT_TRUE(isEqual(enclosedDistance(same), Interval(-0.75))) << "one in the other";
+}
+
+/// Segments for which the distance is a double, and so are all that lead to it.
+TEST(Separation, OfCapsulesIsExactWhereAllNumbersAre) {
+  const Place x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const struct {
+    const char* what;
+    Rod one, other;
+    double distance;
+  } cases[] = {{"parallel, side by side", {{0, 0, 0}, x, 0.25, 2}, {{0.5, 3, 4}, x, 0.5, 4}, 4.25},
+               {"parallel, opposed", {{0, 0, 0}, x, 0.25, 2}, {{0.5, 3, 4}, {-1, 0, 0}, 0.5, 4}, 4.25},
+               {"parallel, one behind the other", {{0, 0, 0}, x, 0, 2}, {{6, 3, 0}, x, 0, 2}, 5},
+               {"on one line", {{0, 0, 0}, z, 0.25, 2}, {{0, 0, 5}, z, 0.25, 4}, 1.5},
+               {"on one line, overlapping", {{0, 0, 0}, z, 0.25, 2}, {{0, 0, 1}, z, 0.25, 4}, -0.5},
+               {"one within the other", {{0, 0, 0}, z, 0.25, 8}, {{0, 0, 1}, z, 0.125, 2}, -0.375},
+               {"the same", {{1, 2, 3}, y, 0.5, 2}, {{1, 2, 3}, y, 0.5, 2}, -1},
+               {"crossing", {{0, 0, 0}, x, 0.5, 4}, {{1, 0.5, 3}, y, 0.25, 4}, 2.25},
+               {"crossing, through each other", {{0, 0, 0}, x, 0.5, 4}, {{1, 0.5, 0}, y, 0.25, 4}, -0.75},
+               {"one beside the end of the other", {{0, 0, 0}, x, 0, 4}, {{6, 0, 3}, y, 0, 4}, 5},
+               {"an end against the middle", {{0, 0, 0}, x, 0.5, 4}, {{0, 3, 0}, y, 0.5, 2}, 1},
+               {"ends", {{0, 0, 0}, x, 0, 2}, {{4, 4 + 2, 0}, y, 0, 4}, 5},
+               {"no length", {{0, 0, 0}, x, 0.5, 0}, {{0, 3, 4}, y, 0.5, 0}, 4},
+               {"no length, against the middle", {{0, 0, 0}, x, 0.5, 4}, {{1, 3, 4}, y, 0.5, 0}, 4},
+               {"no length, in the middle", {{0, 0, 0}, x, 0.5, 4}, {{1, 0, 0}, y, 0.5, 0}, -1}};
+  for (const auto& [what, one, other, distance] : cases)
+    for (const bool isSwapped : {false, true}) {
+      const Rod &first = isSwapped ? other : one, &second = isSwapped ? one : other;
+      EXPECT_EQ(distanceOf(first, second), distance) << what;
+      EXPECT_TRUE(isEqual(enclosedDistance(first, second), Interval(distance)))
+          << what << ": " << toString(enclosedDistance(first, second));
+      const Mechanism m = pairOf(first.capsule("one"), second.capsule("other"));
+      EXPECT_EQ(Assembly<double>(m).output("apart.distance"), distance) << what;
+      EXPECT_EQ(Evaluator<double>(recordOutputs(m, {}, {"apart.distance"}))(0, {0})[0], distance) << what;
+    }
+}
+
+TEST(Separation, FromABoxIsThatFromItsNearestPoint) {
+  const struct {
+    const char* what;
+    ExpressionVector centre;
+    double distance;
+  } cases[] = {{"before a face", {5.0, 0.5, -1.0}, 3.75},      {"before an edge", {4.0, 6.0, 1.0}, 4.75},
+               {"before a corner", {2.0, 4.0, 5.0}, 2.75},     {"inside", {0.5, 1.75, 0.0}, -0.5},
+               {"in the middle", {0.0, 0.0, 0.0}, -1.25},      {"on a face", {-1.0, 0.0, 0.0}, -0.25},
+               {"before another face", {0.0, -4.0, 0.0}, 1.75}};
+  for (const auto& [what, centre, distance] : cases)
+    for (const bool isSwapped : {false, true}) {
+      const Described box = Cuboid{"box", "inertial", {2.0, 4.0, 6.0}}, ball = Sphere{"ball", "inertial", 0.25, centre};
+      const Mechanism m = isSwapped ? pairOf(ball, box) : pairOf(box, ball);
+      EXPECT_TRUE(isEqual(enclosedDistance(m), Interval(distance))) << what << ": " << toString(enclosedDistance(m));
+      EXPECT_EQ(Assembly<double>(m).output("apart.distance"), distance) << what;
+    }
+  Mechanism turned;  // a quarter turn, and a frame that is no shape
+  turned.add(State{"x"});
+  turned.add(Cuboid{"box", "inertial", {2.0, 4.0, 6.0}, {1.0, 0.0, 0.0}, {{axisZ, 1, 0.0}}});
+  turned.add(Link{"arm", "inertial", "tip", {7.0, 4.0, 0.0}});
+  turned.add(Separation{"apart", "tip", "box"});
+  EXPECT_TRUE(isEqual(enclosedDistance(turned), Interval(5.0)));
+}
+
+// ---- Any segments ---------------------------------------------------------------------------------------------------
+
+class Segments : public ::testing::Test {
+ protected:
+  double number(double most = 1) { return std::uniform_real_distribution<double>(-most, most)(random_); }
+  Rod rod(double size = 1) {
+    return {{number(size), number(size), number(size)}, {number(), number(), number()}, 0.125, 1 + number()};
+  }
+  std::mt19937 random_{7};
+};
+
+TEST_F(Segments, AreAsFarApartAsTheirNearestPoints) {
+  double widest = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Rod one = rod(), other = rod();
+    const Real exact = distanceOf(one, other);
+    const Interval enclosed = enclosedDistance(one, other);
+    ASSERT_TRUE(holds(enclosed, exact)) << i << ": " << toString(enclosed) << " without " << exact;
+    if (exact + 0.25 > 1e-3) widest = std::max(widest, width(enclosed));
+  }
+  EXPECT_LE(widest, 1e-11);
+}
+
+/// From at right angles to hardly turned against each other: what is left out where they cross at a small angle.
+TEST_F(Segments, ThatAreNearlyParallelAreEnclosed) {
+  for (int i = 0; i < 2000; ++i) {
+    Rod one = rod(0.1), other = one;
+    const double turn = std::exp2(-20 * std::abs(number()));
+    for (std::size_t k = 0; k < 3; ++k) {
+      other.direction[k] += turn * number();
+      other.middle[k] += (i % 2 == 0 ? 0.5 : turn) * number();
+    }
+    other.length = 1 + number();
+    const Real exact = distanceOf(one, other);
+    const Interval enclosed = enclosedDistance(one, other);
+    ASSERT_TRUE(holds(enclosed, exact)) << i << ": " << toString(enclosed) << " without " << exact;
+    if (exact + 0.25 > 0.1) {
+      ASSERT_LE(width(enclosed), 1.6e-4 * one.length * other.length);
+    }
+  }
+}
+
+/// Lengths and places in intervals: what holds for their values lies in what is said of all.
+TEST_F(Segments, OfIntervalsHoldThoseOfTheirValues) {
+  for (int i = 0; i < 300; ++i) {
+    const Rod one = rod(), other = rod();
+    const Mechanism m = pairOf(one.capsule("one"), other.capsule("other"));
+    const std::vector<std::string> free = {"one.length", "other.radius", "one.centre.x", "other.centre.y"};
+    const double spread = std::exp2(-8 * std::abs(number()));
+    const auto about = [&](double value) {
+      return Interval(value - spread * std::abs(value), value + spread * std::abs(value));
+    };
+    const std::vector<Interval> box = {about(one.length), about(other.radius), about(one.middle[0]),
+                                       about(other.middle[1])};
+    const Interval enclosed = Assembly<Interval>(m, free, box).output("apart.distance");
+    for (int sample = 0; sample < 10; ++sample) {
+      const auto in = [&](const Interval& x) {
+        return std::clamp(x.lower() + (0.5 + 0.5 * number()) * (x.upper() - x.lower()), x.lower(), x.upper());
+      };
+      Rod first = one, second = other;
+      first.length = in(box[0]), second.radius = in(box[1]), first.middle[0] = in(box[2]),
+      second.middle[1] = in(box[3]);
+      ASSERT_TRUE(holds(enclosed, distanceOf(first, second))) << i;
+    }
+  }
+}
+
+/// What is recorded is the same number in every scalar, also where a plane is known to hold all of it.
+TEST_F(Segments, AreMeasuredAlikeInEveryScalar) {
+  for (const bool isPlanar : {false, true}) {
+    Mechanism m;
+    m.add(Revolute{"hinge", "inertial", "A", axisY, 0.3, 0.1});
+    m.add(Link{"boom", "A", "B", {0.25, isPlanar ? 0.0 : 0.5, -1.0}});
+    m.add(Revolute{"elbow", "B", "C", isPlanar ? axisY : axisX});
+    m.add(Mass{"bob", "C", 1.0, {0.0, 0.0, -0.5}, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}});
+    m.add(Capsule{"one", "A", 0.125, 0.75, axisX, {0.0, 0.0, -0.5}});
+    m.add(Capsule{"other", "C", 0.25, 0.5, axisZ, {0.0, 0.0, -0.25}});
+    m.add(Separation{"apart", "other", "one"});
+    const Program recorded = recordOutputs(m, {}, {"apart.distance"});
+    for (int i = 0; i < 200; ++i) {
+      const std::vector<double> x = {number(3), number(3), 0, 0};
+      const auto valueIn = [&]<class S>(S /*scalar*/) {
+        Assembly<S> assembly(m);
+        assembly.setState(std::vector<S>(x.begin(), x.end()));
+        return assembly.output("apart.distance");
+      };
+      const double value = valueIn(0.0);
+      const Interval enclosed = valueIn(Interval(0.0)),
+                     again = Evaluator<Interval>(recorded)(Interval(0.0), {x[0], x[1], 0, 0})[0];
+      EXPECT_FALSE(isDisjoint(enclosed, again));
+      if (value + 0.375 < 1e-3) continue;
+      EXPECT_NEAR(midpoint(enclosed), value, 1e-5) << i;
+      EXPECT_NEAR(Evaluator<double>(recorded)(0, x)[0], value, 1e-5);
+      EXPECT_NEAR(valueIn(Samples(0.0))[0], value, 1e-12);
+      EXPECT_NEAR(midpoint(valueIn(Fuzzy(0.0)).cut(0.0)), value, 1e-5);
+    }
+  }
+}
+
+// ---- What is refused ------------------------------------------------------------------------------------------------
+
+TEST(Separation, RefusesWhatHasNoDistance) {
+  Mechanism m;
+  m.add(Cuboid{"box", "inertial", {1.0, 1.0, 1.0}});
+  m.add(Capsule{"rod", "inertial", 0.1, 1.0});
+  m.add(Separation{"apart", "box", "rod"});
+  try {
+    Assembly<double> assembly(m);
+    FAIL() << "there is none";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("between a box and what is no sphere"));
+  }
+  for (const Described& negative :
+       {Described(Sphere{"shape", "inertial", -1.0}), Described(Capsule{"shape", "inertial", -1.0, 1.0}),
+        Described(Capsule{"shape", "inertial", 1.0, -1.0}), Described(Cuboid{"shape", "inertial", {1.0, -1.0, 1.0}})}) {
+    Mechanism one;
+    one.add(negative);
+    EXPECT_EQ(one.faults(one.elements()[0], {}).size(), 1U);
+  }
+}
+
+}  // namespace
+}  // namespace gamut
