@@ -707,7 +707,7 @@ FlowFollower::OutputTools& FlowFollower::toolsBetween(std::size_t layout, std::s
 
 /// Into how many chords a part of a step is cut, so that modelled outputs leave them by little of what is uncertain
 /// about them. What does not become less with the square of their length counts for nothing, but at kinks, where boxes
-/// become smaller with the length. Times in seconds from the step's start.
+/// become smaller with the length: so many parts a step. Times in seconds from the step's start.
 int FlowFollower::chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to) {
   constexpr double little = 2e-3, hardly = 0.02, most = 32, square = 0.3, acrossKinks = 16;
   const bool knowsMore = knowsMoreByBoxes();
@@ -724,7 +724,7 @@ int FlowFollower::chordsFor(FlowPiece& piece, const std::vector<Interval>& befor
     if (isBounded(sag) && extent > 0 && width(half[o].whole()) < square * width(sag))
       parts = std::max(parts, std::sqrt(width(sag) / (little * extent)));
     else if (knowsMore && width(sag) > little * extent)
-      parts = std::max(parts, acrossKinks);
+      parts = std::max(parts, acrossKinks * std::min(1.0, (to - from) / tool_->stepper.h()));
   }
   return static_cast<int>(std::ceil(std::min(parts, most)));
 }

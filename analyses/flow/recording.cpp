@@ -1,6 +1,7 @@
 // What a step contributes to the tube: enclosures at the output times, and, between them, chords.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -188,11 +189,24 @@ class FlowFollower::Recording {
     return std::ranges::any_of(open, [&](int o) { return isKnown[o] != 0 || std::isfinite(f_.outputs_->radius(o)); });
   }
 
+  /// What chords leave over at most of an output, as a part of what is uncertain about it, where there are kinks: over
+  /// a short time fewer of these, and over less, are on both sides.
+  double looseAtKinks() const {
+    if (!f_.outputs_->hasKinks()) return 0;
+    double most = 0;
+    for (int o = 0; o < f_.outputs_->count(); ++o)
+      if (f_.outputTool_->chords->isBounded(o))
+        most = std::max(most, f_.outputTool_->chords->rest(o) / f_.extentOf(before_.limits[o]));
+    return most;
+  }
+
   /// Chords of the rest of the step, or of as much of it as they can be proved for: what is bounded at a moment may be
-  /// so over a short time alone. What is not even then is left to plain intervals.
+  /// so over a short time alone. What is not even then is left to plain intervals. Likewise at kinks, while it helps.
   void loadNext() {
     constexpr int enoughInVain = 12;
-    const double least = (t1_ - t0_) / 64;
+    constexpr double little = 0.1, helps = 0.75;
+    const double least = (t1_ - t0_) / 64, leastAtKinks = (t1_ - t0_) / 8;
+    double loose = std::numeric_limits<double>::infinity();
     std::vector<char> isKnown(f_.outputs_->count());
     for (int o = 0; o < f_.outputs_->count(); ++o) isKnown[o] = std::isfinite(piece_.lastRadii[o]) ? 1 : 0;
     for (length_ = std::max(2 * length_, least);; length_ *= 0.5) {
@@ -200,9 +214,12 @@ class FlowFollower::Recording {
       loadedTo_ = inVain_ < enoughInVain && from_ < until && until < t1_ ? until : t1_;
       f_.giveSigns(piece_, stepper_.signsOver(f_.signs_));
       f_.loadChords(piece_, before_.limits, from_ - t0_, loadedTo_ - t0_);
-      if (inVain_ == enoughInVain || !isLacking(isKnown)) return;
+      if (inVain_ == enoughInVain) return;
+      const bool lacks = isLacking(isKnown);
+      const double before = std::exchange(loose, looseAtKinks());
+      if (!lacks && !(length_ > leastAtKinks && loose > little && loose < helps * before)) return;
       if (!(length_ > least)) {
-        ++inVain_;
+        inVain_ += lacks ? 1 : 0;
         return;
       }
     }

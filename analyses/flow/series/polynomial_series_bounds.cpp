@@ -12,6 +12,35 @@
 
 namespace gamut {
 
+namespace {
+
+/// What a sum is twice, or its negative: x or y, of a sum of x ± y and |x ∓ y|, either with any sign, where the
+/// argument of |x ∓ y| is on one side; -1 if it is none. Then what the other one leaves open is in neither: as
+/// polynomials the sum is 2x or 2y but for what its two operands and the argument add themselves.
+struct SidedExtreme {
+  int one = -1, plain = -1, kink = -1;
+};
+template <class Plan, class Kinks>
+SidedExtreme sidedExtreme(const Plan& plan, const Kinks& kinks, const SeriesNode& sum) {
+  for (const bool isFirst : {true, false}) {
+    const int kink = isFirst ? sum.a : sum.b, plain = isFirst ? sum.b : sum.a;
+    if (plan[kink].op != Op::abs || !kinks[kink].isSided) continue;
+    const SeriesNode &s = plan[plain], &u = plan[plan[kink].a];
+    const auto isSum = [](const SeriesNode& n) { return n.op == Op::add || n.op == Op::sub; };
+    if (!isSum(s) || !isSum(u) || s.op == u.op) continue;
+    const bool isSwapped = s.a == u.b && s.b == u.a;
+    if (s.a == s.b || !(isSwapped || (s.a == u.a && s.b == u.b))) continue;
+    // Signs of s.a and s.b in the sum, once from `plain`, once from ±u.
+    const double ofPlain = sum.op == Op::sub && isFirst ? -1 : 1;
+    const double ofKink = (sum.op == Op::sub && !isFirst ? -1 : 1) * kinks[kink].chord.slope;
+    const double a = ofPlain + ofKink * (isSwapped && u.op == Op::sub ? -1 : 1);
+    return {a != 0 ? s.a : s.b, plain, kink};
+  }
+  return {};
+}
+
+}  // namespace
+
 bool PolynomialSeries::boundNode(int node) {
   const SeriesNode& v = plan_[node];
   const Operands of{*this, isFine(node)};
@@ -27,6 +56,10 @@ bool PolynomialSeries::boundNode(int node) {
     case Op::add:
     case Op::sub:
       if (norm_[node] == 0 && isNothing(v)) break;
+      if (const auto [one, plain, kink] = sidedExtreme(plan_, kinks_, v); one >= 0) {
+        z = {2 * of.r0(one) + own_[plain].e0 + own_[plan_[kink].a].e0 + own_[kink].e0 + own_[node].e0, 2 * of.r1(one)};
+        break;
+      }
       z = {of.r0(v.a) + of.r0(v.b) + own_[node].e0, of.r1(v.a) + of.r1(v.b)};
       break;
     case Op::neg:

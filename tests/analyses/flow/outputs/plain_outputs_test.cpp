@@ -22,7 +22,7 @@ TEST(PlainOutputs, DoNotTakeTheNegativeAxisForThePositiveOne) {
 
 /// Bounds of the greater are the greater bounds, nested ones too, however the two are written.
 TEST(PlainOutputs, OfExtremesAreThoseOfTheExtreme) {
-  PlainOutputs outputs(record(2, 1, 7, [](auto t, const auto& x, const auto& p, auto& y) {
+  PlainOutputs outputs(record(2, 1, 8, [](auto t, const auto& x, const auto& p, auto& y) {
     y[0] = max(x[0], x[1]);
     y[1] = min(x[0], Recorded(0.25));
     y[2] = max(x[0], Recorded(0.0));
@@ -30,12 +30,14 @@ TEST(PlainOutputs, OfExtremesAreThoseOfTheExtreme) {
     y[4] = min(max(x[0], x[1]), p[0] + t);
     y[5] = max(sqrt(x[1]), x[0]);
     y[6] = max(-x[0], sin(x[1]) * 0.0 - p[0]);
+    y[7] = x[1] * max(x[0], Recorded(0.0));  // the half of the formula goes into the product
   }));
   const std::vector<Interval> x{Interval(-1.0, 1.0), Interval(0.5, 3.0)}, p{Interval(2.0)};
   const auto over = [&](int output) { return outputs.over(output, Interval(0.0, 0.5), x, p); };
   EXPECT_TRUE(isEqual(over(0), Interval(0.5, 3.0)));
   EXPECT_TRUE(isEqual(over(1), Interval(-1.0, 0.25)));
   EXPECT_TRUE(isEqual(over(2), Interval(0.0, 1.0)));
+  EXPECT_TRUE(isEqual(over(7), Interval(0.0, 3.0)));
   EXPECT_TRUE(isEqual(over(3), Interval(-1.0, 3.0)));
   EXPECT_TRUE(isEqual(over(4), Interval(0.5, 2.5)));
   EXPECT_TRUE(isSubset(Interval(std::sqrt(0.5), std::sqrt(3.0)), over(5)));

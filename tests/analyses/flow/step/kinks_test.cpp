@@ -268,5 +268,45 @@ TEST(FlowKink, InOutputs) {
   EXPECT_LT(width(tube.outputs(1)[0]), 1.01 * magnitude(tube.states(1)[0]));
 }
 
+/// What the greater of two numbers leaves open, as a kink of it that is not passed by all, is not in the lesser.
+TEST(FlowKink, LeaveTheLesserNumberAloneWhereItIsKnown) {
+  Containment c;
+  c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -x[0];
+  });
+  c.g = record(2, 0, 2, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = min(x[0], 5.0 + abs(x[1])) - x[0];
+    y[1] = max(x[0] - abs(x[1]), 3.0 - x[0]) + x[0];
+  });
+  c.box = {Interval(-0.25, 0.25), Interval(-0.25, 0.25)};
+  c.horizon = 2;
+  c.times = {0.5, 1.0};
+  const Tube tube = expectEvents(c, 40, false);
+  for (std::size_t row = 0; row < tube.times().size(); ++row) {
+    EXPECT_LT(magnitude(tube.outputs(row)[0]), 1e-9);
+    EXPECT_LT(magnitude(tube.outputs(row)[1] - 3.0), 1e-9);
+  }
+}
+
+/// Chords of steps much longer than what passes a kink: 10 + |cos t| - cos t, from 1 to 2, of which boxes know little.
+TEST(FlowKink, AreBoundedOverAShortTimeBetweenOutputTimes) {
+  Containment c;
+  c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -x[0];
+  });
+  c.g = record(2, 0, 1, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = abs(x[0]) - x[0] + 10.0 * (sqr(x[0]) + sqr(x[1]));
+  });
+  c.box = {1.0, 0.0};
+  c.horizon = 2;
+  c.times = {1.0};
+  const Tube tube = expectEvents(c, 40, false);
+  const Interval over = tube.outputsOver(tube.times().size() - 1)[0];
+  EXPECT_GE(over.lower(), 9.5);
+  EXPECT_LE(over.upper(), 10 - 2 * std::cos(2.0) + 0.05);
+}
+
 }  // namespace
 }  // namespace gamut::testing
