@@ -9,15 +9,13 @@
 // If s₀ and t₀ are inside, the least is there, and at an end it is greater by |x|² (h - |s₀|)², or more, or by
 // |x|² (k - |t₀|)²; of the smaller of both by no more, since |t₀ + a·b δ| ≤ |t₀| + |δ| then is inside too. Else the
 // least is at an end, and e is zero. In a plane x has one component alone, by which e can be divided as it stands. Else
-// |x|² is replaced by no less than `least`, which leaves out
+// |x|² is replaced by no less than `leastSize`, which leaves out
 //
-//   e²/|x|² (1 - |x|²/least) ≤ q e (1 - |x|²/least),   q = min(h, k),   since e ≤ q |x|²,
+//   e²/|x|² (1 - |x|²/leastSize) ≤ q e (1 - |x|²/leastSize),   q = min(h, k),   since e ≤ q |x|²,
 //
-// where |x|² is less: at most q² least/4, of segments that cross within their ends at an angle below 0.45°.
+// where |x|² is less: at most q² leastSize/4, of segments that cross within their ends at an angle below 0.9°.
 #include "mechanics/elements/separation.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "mechanics/assembler.hpp"
@@ -28,9 +26,7 @@
 namespace gamut {
 namespace {
 
-using std::abs, std::max, std::min, std::sqrt;
-
-constexpr double least = 0x1p-14;
+constexpr double leastSize = 0x1p-12;
 
 template <class S>
 S squares(const Vector3<S>& x) {
@@ -39,6 +35,7 @@ S squares(const Vector3<S>& x) {
 
 template <class S>
 S positive(const S& x) {
+  using std::max;
   return S(max(x, S(0.0)));
 }
 
@@ -49,11 +46,13 @@ struct Segment {
 
   /// From a point, squared.
   S squareTo(const Vector3<S>& point) const {
+    using std::abs;
     const Vector3<S> y = point - middle;
     return squares<S>(y.cross(along)) + square(positive(S(S(abs(S(along.dot(y)))) - half)));
   }
   /// From the nearer end of another one, squared.
   S squareToEnds(const Segment& other) const {
+    using std::min;
     const Vector3<S> reach = other.along * other.half;
     return S(min(squareTo(other.middle + reach), squareTo(other.middle - reach)));
   }
@@ -62,6 +61,7 @@ struct Segment {
 /// By what the square of the distance of two segments is less than that of their ends: e²/|x|².
 template <class S>
 S squareInside(const Segment<S>& one, const Segment<S>& other) {
+  using std::abs, std::max, std::min;
   const Vector3<S> w = one.middle - other.middle, x = one.along.cross(other.along);
   const Vector3<S> y = other.along.cross(w), z = one.along.cross(w);
   int across = -1, components = 0;
@@ -73,13 +73,14 @@ S squareInside(const Segment<S>& one, const Segment<S>& other) {
   };
   if (components == 1) return square(inside(S(abs(x[across])), y[across], z[across]));
   const S size = squares(x), e = inside(size, S(x.dot(y)), S(x.dot(z)));
-  const S missing = positive(S(S(1.0) - S(1 / least) * size)), half = min(one.half, other.half);
-  const S within = min(S(e / S(max(size, S(least)))), half);
+  const S missing = positive(S(S(1.0) - S(1 / leastSize) * size)), half = min(one.half, other.half);
+  const S within = min(S(e / S(max(size, S(leastSize)))), half);
   return e * (within + constant<S>(Interval(0.0, 1.0)) * (half * missing));
 }
 
 template <class S>
 S squareBetween(const Segment<S>& one, const Segment<S>& other) {
+  using std::min;
   const S ends = min(one.squareToEnds(other), other.squareToEnds(one));
   return positive(S(ends - squareInside(one, other)));
 }
@@ -101,6 +102,7 @@ struct Placed {
 /// Of a point from a box: outside √Σ max(m_i, 0)², inside max m_i, with m_i = |y_i| - h_i of the point y in its axes.
 template <class S>
 S fromBox(const Vector3<S>& point, const Placed<S>& box) {
+  using std::abs, std::max, std::min, std::sqrt;
   const Vector3<S> y = box.frame.turning.axes.transpose() * Vector3<S>(point - box.middle());
   Vector3<S> m, outside;
   for (int i = 0; i < 3; ++i) {
@@ -108,6 +110,55 @@ S fromBox(const Vector3<S>& point, const Placed<S>& box) {
     outside[i] = positive(m[i]);
   }
   return S(sqrt(squares(outside))) + S(min(S(max(S(max(m[0], m[1])), m[2])), S(0.0)));
+}
+
+/// Of a segment x + s a, |s| ≤ h, from a box, in its axes: √ of the least F(s) = Σ max(|x_i + s a_i| - h_i, 0)².
+///
+/// F is convex, and quadratic in pieces: with A the axes i for which a term is above zero, on the side σ_i, its slope
+/// is 2 Σ_A a_i (x_i + s a_i - σ_i h_i). Where F is least over an interval, F rises from its end on, with some A that
+/// has D = Σ_A a_i² > 0, or the end is that of the segment. So the least F is that of an end or of one of
+///
+///   s = -Σ_A a_i (x_i - σ_i h_i)/D     for all A and σ, clamped to |s| ≤ h, where F is no less than its least.
+///
+/// Here D is replaced by `tiny` where it is less. Were a_i = 0 for the axes with a_i² < tiny, A would do without them,
+/// and √F would be another by no more than δ, δ² = h² Σ a_i² over these: so the least is too great by 2δ at most.
+template <class S>
+S fromBox(const Segment<S>& segment, const Placed<S>& box) {
+  using std::abs, std::max, std::min, std::sqrt;
+  constexpr double tiny = 0x1p-60, root = 0x1p-30;
+  const Matrix3<S> inBox = box.frame.turning.axes.transpose();
+  const Vector3<S> x = inBox * Vector3<S>(segment.middle - box.middle()), a = inBox * segment.along;
+  const Vector3<S>& halves = box.outline.halves;
+  const auto squareAt = [&](const S& s) {
+    S sum(0.0);
+    for (int i = 0; i < 3; ++i) sum = sum + square(positive(S(S(abs(S(x[i] + s * a[i]))) - halves[i])));
+    return sum;
+  };
+  S lowest = min(squareAt(segment.half), squareAt(S(-segment.half)));
+  unsigned moving = 0;  // axes
+  for (unsigned i = 0; i < 3; ++i) moving |= isKnownZero(a[i]) ? 0U : 1U << i;
+  for (unsigned axes = 1; axes < 8; ++axes) {
+    if ((axes & ~moving) != 0) continue;
+    S size(0.0);
+    for (unsigned i = 0; i < 3; ++i)
+      if ((axes >> i & 1U) != 0) size = size + square(a[i]);
+    for (unsigned sides = 0; sides < 8; ++sides) {
+      if ((sides & ~axes) != 0) continue;
+      S slope(0.0);
+      for (unsigned i = 0; i < 3; ++i)
+        if ((axes >> i & 1U) != 0)
+          slope = slope + a[i] * ((sides >> i & 1U) != 0 ? x[i] + halves[i] : x[i] - halves[i]);
+      const S s = axes == moving ? S(-slope) : S(-slope / S(max(size, S(tiny))));  // of all axes |a|² = 1
+      lowest = min(lowest, squareAt(S(max(S(min(s, segment.half)), S(-segment.half)))));
+    }
+  }
+  S slack(0.0);
+  for (unsigned i = 0; i < 3; ++i)
+    if ((moving >> i & 1U) != 0) {
+      const S turned = abs(a[i]);
+      slack = slack + S(min(turned, positive(S(S(2 * root) - turned))));
+    }
+  return S(sqrt(lowest)) - constant<S>(Interval(0.0, 2.0)) * (segment.half * slack);
 }
 
 template <class S>
@@ -120,6 +171,12 @@ S squareBetween(const Placed<S>& one, const Placed<S>& other) {
 }
 
 template <class S>
+S fromBox(const Placed<S>& round, const Placed<S>& box) {
+  const bool isSegment = round.is(ShapeCore::segment);
+  return (isSegment ? fromBox(round.segment(), box) : fromBox(round.middle(), box)) - round.outline.radius;
+}
+
+template <class S>
 ShapeCore coreOf(const Frame<S>& frame) {
   const auto* shape = dynamic_cast<const ShapeFrame<S>*>(frame.origin);
   return shape == nullptr ? ShapeCore::point : shape->outline().core;
@@ -127,10 +184,11 @@ ShapeCore coreOf(const Frame<S>& frame) {
 
 template <class S>
 S distanceOf(const Frame<S>& from, const Frame<S>& to) {
+  using std::sqrt;
   const Frame<S>* base = commonBase<S>(&from, &to);
   const Placed<S> one(from, base), other(to, base);
-  if (one.is(ShapeCore::cuboid)) return fromBox(other.middle(), one) - other.outline.radius;
-  if (other.is(ShapeCore::cuboid)) return fromBox(one.middle(), other) - one.outline.radius;
+  if (other.is(ShapeCore::cuboid)) return fromBox(one, other);
+  if (one.is(ShapeCore::cuboid)) return fromBox(other, one);
   return S(sqrt(squareBetween(one, other))) - (one.outline.radius + other.outline.radius);
 }
 
@@ -139,17 +197,18 @@ S distanceOf(const Frame<S>& from, const Frame<S>& to) {
 void Separation::describe(Fields& f) {
   f.frame({"from", "", "a shape, or a frame"}, from);
   f.otherFrame({"to", "", "the other one"}, to, from);
-  f.measure({"distance", "m",
-             "between the nearest points of their surfaces; below 0 where they overlap: spheres and capsules by what "
-             "both radii are more than the distance of centres or segments, so by no more than both radii"});
+  f.measure(
+      {"distance", "m",
+       "between the nearest points of their surfaces. Below 0 where they overlap: by both radii, less what centres or "
+       "segments are apart; of a box and a sphere by how far that would have to be drawn out; of a box and a "
+       "capsule by its radius at most"});
 }
 
 template <class S>
 void Separation::assemble(Assembler<S>& a) const {
   const Frame<S>&one = a.frame(from), &other = a.frame(to);
-  const std::array cores = {coreOf(one), coreOf(other)};
-  if (std::ranges::count(cores, ShapeCore::cuboid) > std::ranges::count(cores, ShapeCore::point))
-    throw UnfitPart(name, "'" + name + "' is between a box and what is no sphere", "a box and a sphere, or a frame");
+  if (coreOf(one) == ShapeCore::cuboid && coreOf(other) == ShapeCore::cuboid)
+    throw UnfitPart(name, "'" + name + "' is between two boxes", "a box and a sphere, a capsule or a frame");
   a.measure("distance", [&one, &other] { return distanceOf(one, other); });
 }
 

@@ -25,7 +25,9 @@ class FilledIn final : public Onlooker {
   bool movesFrame = false, refersToOthers = false;
 
   void frame(const Word&, std::string& name) override { name = "seat"; }
-  void movedFrame(const Word&, std::string& name, const std::string&) override {
+  /// A shape's own frame, which has its name, is fixed and for measurements.
+  void movedFrame(const Word& word, std::string& name, const std::string&) override {
+    if (word.key == "name") return;
     name = "moved";
     movesFrame = true;
   }
