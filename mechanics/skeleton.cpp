@@ -2,6 +2,9 @@
 #include "mechanics/skeleton.hpp"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "mechanics/assembly.hpp"
@@ -29,12 +32,32 @@ class Seen final : public Onlooker {
     std::string key, frame;
     Axis axis;
   };
+  struct Shape {
+    Expression radius = 0.0, length = 0.0;
+    Axis axis = axisZ;
+    std::optional<ExpressionVector> size = std::nullopt;  // of a box
+  };
+  static ExpressionVector zero() { return {0.0, 0.0, 0.0}; }
 
-  void movedFrame(const Word&, std::string& name, const std::string& from) override { moved.push_back({from, name}); }
+  /// A frame that has the element's name is a shape's.
+  void movedFrame(const Word& word, std::string& name, const std::string& from) override {
+    if (word.key == "name") shape.emplace();
+    moved.push_back({from, name});
+  }
   void carriesMass(const FixedPoint& centre, const Expression& mass) override { bodies.push_back({centre, mass}); }
   void drawsSpring(const FixedPoint& from, const FixedPoint& to) override { springs.push_back({from, to}); }
   void jointAxis(const Word& word, Axis& axis, const std::string& frame) override {
     axes.push_back({word.key, frame, axis});
+  }
+  void number(const Word& word, Expression& number) override {
+    if (shape && word.key == "radius") shape->radius = number;
+    if (shape && word.key == "length") shape->length = number;
+  }
+  void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const>, std::size_t) override {
+    if (shape && word.key == "size") std::ranges::copy(numbers, shape->size.emplace(zero()).begin());
+  }
+  void axis(const Word&, Axis& axis) override {
+    if (shape) shape->axis = axis;
   }
   void coordinate(const Word&, Expression&, Coordinate kind, const Word&, Expression&) override {
     ++(kind == Coordinate::angle ? turns : slides);
@@ -45,6 +68,7 @@ class Seen final : public Onlooker {
   std::vector<Body> bodies;
   std::vector<Spring> springs;
   std::vector<JointAxis> axes;
+  std::optional<Shape> shape;
   int turns = 0, slides = 0;
 };
 
@@ -67,6 +91,10 @@ class Finder {
       if (!isJoint && std::ranges::count(ground_, from) > 0) ground_.push_back(to);
       for (const auto& [key, frame, axis] : seen.axes)
         skeleton.axes.push_back({name + "." + key, skeleton.parts.size(), frame, axis});
+      if (seen.shape) {
+        addShape(element, *seen.shape);
+        continue;
+      }
       const std::size_t first = pointOf(from), second = pointOf(to);
       skeleton.parts.push_back(
           {name, element.type(), isJoint ? joint : rigid, first, second, seen.turns, seen.slides, 0.0});
@@ -79,6 +107,34 @@ class Finder {
       const std::size_t first = pointOf(name + ".from", from), second = pointOf(name + ".to", to);
       skeleton.parts.push_back({name, element.type(), spring, first, second, 0, 0, 0.0});
     }
+  }
+
+  /// By lines between points of the shape's own frame: a segment, or the edges of a box.
+  void addShape(const Described& element, const Seen::Shape& shape) {
+    const std::string& name = element.name();
+    const auto add = [&](std::size_t from, std::size_t to) {
+      skeleton.parts.push_back({name, element.type(), Skeleton::Kind::shape, from, to, 0, 0, 0.0, shape.radius});
+    };
+    if (shape.size) {
+      std::array<std::size_t, 8> corners{};
+      for (unsigned corner = 0; corner < 8; ++corner) {
+        ExpressionVector place = Seen::zero();
+        for (std::size_t i = 0; i < 3; ++i)
+          place[i] = Expression((corner >> i & 1U) != 0 ? 0.5 : -0.5) * (*shape.size)[i];
+        corners[corner] = pointOf(name + ".corner" + std::to_string(corner + 1), {name, place});
+      }
+      for (unsigned corner = 0; corner < 8; ++corner)
+        for (unsigned along = 1; along < 8; along *= 2)
+          if ((corner & along) == 0) add(corners[corner], corners[corner | along]);
+      return;
+    }
+    std::array<ExpressionVector, 2> ends = {Seen::zero(), Seen::zero()};
+    const std::array<Interval, 3> axis = shape.axis.enclosure();
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t end = 0; end < 2; ++end)
+        ends[end][i] = Expression(axis[i] * Interval(end == 0 ? -0.5 : 0.5)) * shape.length;
+    const std::size_t first = pointOf(name + ".start", {name, ends[0]});
+    add(first, pointOf(name + ".end", {name, ends[1]}));
   }
 
   std::size_t pointOf(const std::string& frame) {

@@ -28,6 +28,7 @@ struct Skeleton {
     joint,   ///< `to` moves against `from`
     mass,    ///< `from` is the frame that it is fixed to, `to` its centre
     spring,  ///< a load between two points
+    shape,   ///< all within `radius` of the line between two points: a sphere, a capsule, an edge of a box
   };
   struct Part {
     std::string name, type;  ///< as in the study
@@ -35,6 +36,7 @@ struct Skeleton {
     std::size_t from = 0, to = 0;  ///< points
     int turns = 0, slides = 0;     ///< of a joint: how many of its speeds turn [rad/s] and slide [m/s]
     Expression mass = 0.0;         ///< kg
+    Expression radius = 0.0;       ///< m
   };
   /// A direction that belongs to a joint.
   struct JointAxis {

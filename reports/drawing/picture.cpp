@@ -48,6 +48,7 @@ class Builder {
     if (isEnclosed(m_)) add(Form::swept, 0, 0, "swept", classOf("swept"));
     for (std::size_t k = 0; k < m_.places.sample.size(); ++k) add(Form::sample, k, 0, "sample", classOf("sample"));
     addGround();
+    for (const PartInfo& part : m_.parts) addShape(part);
     for (const PartInfo& part : m_.parts) addLine(part);
     for (const PartInfo& part : m_.parts)
       if (part.kind == PartKind::mass) addMass(part);
@@ -131,8 +132,17 @@ class Builder {
                 "<path d=\"M0 0L-9 11H9ZM-15 11H15\"/>");
   }
 
+  /// As wide as it is, round at its ends: a sphere is a line without length.
+  void addShape(const PartInfo& part) {
+    constexpr double hairline = 1.2, largest = 1e4;
+    if (part.kind != PartKind::shape) return;
+    add(Form::line, part,
+        fmt::format("class=\"shape\" stroke-width=\"{:.1f}\"",
+                    std::clamp(2 * part.radius * s_.view.scale, hairline, largest)));
+  }
+
   void addLine(const PartInfo& part) {
-    if (part.from == part.to) return;
+    if (part.from == part.to || part.kind == PartKind::shape) return;
     const bool slides = part.kind == PartKind::joint && part.slides == 1 && part.turns <= 1,
                isSpring = part.kind == PartKind::spring;
     add(isSpring ? Form::zigzag : Form::line, part,

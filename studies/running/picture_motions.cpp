@@ -27,7 +27,7 @@ void describeParts(const Study& study, const Skeleton& skeleton, PictureResult& 
     const auto told = study.unitsOfMasses.find(part.name);
     machine.parts.push_back({printable(part.name), printable(part.type), static_cast<PartKind>(part.kind), part.from,
                              part.to, part.turns, part.slides, nominal(part.mass),
-                             told == study.unitsOfMasses.end() ? std::string() : told->second});
+                             told == study.unitsOfMasses.end() ? std::string() : told->second, nominal(part.radius)});
   }
   for (const Skeleton::JointAxis& axis : skeleton.axes) machine.axes.push_back({printable(axis.name), axis.part});
 }

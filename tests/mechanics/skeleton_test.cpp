@@ -64,6 +64,35 @@ TEST(Skeleton, TellsGroundFromWhatOnlyStaysInItsPlace) {
   EXPECT_FALSE(skeleton.points[2].isGround);
 }
 
+/// A sphere at its centre, a capsule by its segment, a box by its edges; none by a link to what carries it.
+TEST(Skeleton, ShowsShapesAsLinesOfSomeWidth) {
+  Mechanism m;
+  m.add(Revolute{"hinge", "inertial", "K", axisX});
+  m.add(Mass{"bob", "K", 1.0, {0.0, 0.0, -1.0}});
+  m.add(Sphere{"ball", "K", 0.25, {0.0, 0.0, -2.0}});
+  m.add(Capsule{"rod", "K", 0.125, 3.0, Axis(0, -1, 0), {0.0, 0.0, -1.0}});
+  m.add(Cuboid{"block", "inertial", {2.0, 4.0, 6.0}, {10.0, 0.0, 0.0}});
+  const Skeleton skeleton = skeletonOf(m);
+  ASSERT_EQ(skeleton.parts.size(), 2u + 1 + 1 + 12);
+  const Skeleton::Part &ball = skeleton.parts[2], &rod = skeleton.parts[3], &edge = skeleton.parts[4];
+  for (const Skeleton::Part* part : {&ball, &rod, &edge}) EXPECT_EQ(part->kind, Kind::shape);
+  const Assembly<double> assembly(m);
+  const std::vector<double> places = positionsOf(assembly, skeleton);
+  const auto placeOf = [&](std::size_t point) {
+    return std::vector<double>(places.begin() + static_cast<std::ptrdiff_t>(3 * point),
+                               places.begin() + static_cast<std::ptrdiff_t>(3 * point + 3));
+  };
+  EXPECT_EQ(ball.from, ball.to);
+  EXPECT_THAT(placeOf(ball.from), ElementsAre(0, 0, -2));
+  EXPECT_EQ(assembly.number(ball.radius), 0.25);
+  EXPECT_EQ(assembly.number(rod.radius), 0.125);
+  EXPECT_THAT(placeOf(rod.from), ElementsAre(0, 1.5, -1));
+  EXPECT_THAT(placeOf(rod.to), ElementsAre(0, -1.5, -1));
+  EXPECT_THAT(placeOf(edge.from), ElementsAre(9, -2, -3));
+  EXPECT_THAT(placeOf(edge.to), ElementsAre(11, -2, -3));
+  EXPECT_TRUE(skeleton.points[edge.from].isGround);
+}
+
 TEST(Skeleton, SaysWhatEachPartIs) {
   Mechanism m;
   m.add(Prismatic{"rail", "inertial", "cart", axisY, 0.1});

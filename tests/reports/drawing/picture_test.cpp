@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -51,6 +52,19 @@ TEST(MachinePicture, HasAnElementForEachPart) {
   EXPECT_EQ(count(svg, "class=\"swept\""), 1u);
   EXPECT_EQ(count(svg, "class=\"now\""), 1u);
   EXPECT_THAT(svg, AllOf(HasSubstr(">heavy</text>"), HasSubstr("light (mass, 0.5 kg)"), HasSubstr("500 mm</text>")));
+}
+
+/// Of its width on paper, and of a hair's where it has none.
+TEST(MachinePicture, ShowsShapesInTheirWidth) {
+  PictureResult m = example::machine().picture;
+  m.parts.push_back({"hand", "sphere", PartKind::shape, 2, 2, 0, 0, 0, "", 0.25});
+  m.parts.push_back({"edge", "box", PartKind::shape, 0, 1, 0, 0, 0});
+  const std::string svg = drawn(m);
+  EXPECT_EQ(count(svg, "class=\"shape\""), 2u);
+  std::ostringstream width;
+  width << std::fixed << std::setprecision(1) << 0.5 * sceneOf(m).view.scale;
+  EXPECT_THAT(svg, HasSubstr("class=\"shape\" stroke-width=\"" + width.str() + "\""));
+  EXPECT_THAT(svg, AllOf(HasSubstr("class=\"shape\" stroke-width=\"1.2\""), HasSubstr("hand (sphere)")));
 }
 
 TEST(MachinePicture, HoldsNothingThatIsFree) {
