@@ -1,0 +1,131 @@
+// Distances of shapes as outputs of studies: as tight as any other output, also where arms pass through parallel
+// positions and the nearest points change, and proved never to be less than a limit.
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "studies/running/run.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+namespace {
+
+/// A pendulum with a rod about it; lengths in m, angles in degrees.
+std::string armText(const std::string& name, const std::string& from, const std::string& axis, const std::string& angle,
+                    const std::string& length) {
+  return R"([[mechanism.element]]
+    type = "revolute"
+    name = ")" +
+         name + R"("
+    from = ")" +
+         from + R"("
+    to = ")" +
+         name + R"(_frame"
+    axis = )" +
+         axis + R"(
+    initial = { angle = ")" +
+         angle + R"(" }
+    [[mechanism.element]]
+    type = "mass"
+    name = ")" +
+         name + R"(_body"
+    at = ")" +
+         name + R"(_frame"
+    mass = 1
+    centre = [0, 0, "-0.5 )" +
+         length + R"("]
+    inertia = [0.1, 0.1, 0.1]
+    [[mechanism.element]]
+    type = "capsule"
+    name = ")" +
+         name + R"(_rod"
+    at = ")" +
+         name + R"(_frame"
+    radius = "50 mm"
+    length = ")" +
+         length + R"("
+    centre = [0, 0, "-0.5 )" +
+         length + R"("]
+    )";
+}
+
+/// Two such arms, their pivots `apart`, all but the pivots known to 1 %.
+Study twoArms(const std::string& apart, const std::string& axis, const std::string& angle,
+              const std::string& further = "") {
+  return readStudyText(R"(
+    [study]
+    title = "Two arms"
+    analysis = "dynamics"
+    horizon = 0.8
+    output_step = 0.05
+    compare = ["interval", "stochastic"]
+    [mechanism]
+    gravity = [0, 0, -9.81]
+    [mechanism.parameters]
+    one = "1 m"
+    other = "80 cm"
+    one_angle = "20 deg"
+    other_angle = ")" + angle +
+                           R"("
+    )" + armText("left", "inertial", "\"y\"", "one_angle", "one") +
+                           R"([[mechanism.element]]
+    type = "link"
+    name = "apart"
+    from = "inertial"
+    to = "base"
+    vector = )" + apart + "\n" +
+                           armText("right", "base", axis, "other_angle", "other") + R"([[mechanism.element]]
+    type = "separation"
+    name = "gap"
+    from = "left_rod"
+    to = "right_rod"
+    [[uncertain]]
+    quantity = "one*"
+    interval = "± 1 %"
+    [[uncertain]]
+    quantity = "other*"
+    interval = "± 1 %"
+    [[output]]
+    quantity = "gap.distance"
+    [stochastic]
+    samples = 256
+    )" + further,
+                       "arms");
+}
+
+class TwoArms : public ::testing::Test {
+ protected:
+  static Results runOf(const Study& study) {
+    RunOptions options;
+    options.jobs = 2;
+    return run(study, options);
+  }
+};
+
+TEST_F(TwoArms, AreHeldApartTightly) {
+  const struct {
+    const char* what;
+    Study study;
+  } cases[] = {{"in one plane", twoArms("[0.5, 0, 0]", "\"y\"", "-5 deg")},
+               {"in two planes, crossing", twoArms("[0, 0.3, 0]", "\"y\"", "-20 deg")},
+               {"at right angles", twoArms("[0.3, 0.4, 0]", "\"x\"", "10 deg")},
+               {"near each other", twoArms("[0.2, 0.1, 0.1]", "\"x\"", "30 deg")}};
+  for (const auto& [what, study] : cases) {
+    const Results results = runOf(study);
+    EXPECT_EQ(results.comparison.verdict, Agreement::inside) << what;
+    EXPECT_FALSE(results.comparison.maximum > 1.05) << what;  // NaN: there is one distance in two parallel planes
+  }
+}
+
+TEST_F(TwoArms, AreProvedNeverToComeCloser) {
+  const auto judged = [](const std::string& limit) {
+    return runOf(twoArms("[0.5, 0, 0]", "\"y\"", "-5 deg",
+                         "[[requirement]]\nname = \"apart\"\nalways = \"gap.distance > " + limit + "\"\n"));
+  };
+  const Results met = judged("20 mm"), violated = judged("60 mm");
+  EXPECT_EQ(met.requirements[0].word, Decision::met);
+  EXPECT_EQ(violated.requirements[0].word, Decision::violated);
+}
+
+}  // namespace
+}  // namespace gamut
