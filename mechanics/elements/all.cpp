@@ -17,6 +17,8 @@ std::vector<Described> elementTypes() {
   types.emplace_back(RollingBall{});
   types.emplace_back(Free{});
   types.emplace_back(Weld{});
+  types.emplace_back(Play{});
+  types.emplace_back(GuidePlay{});
   types.emplace_back(Link{});
   types.emplace_back(Closure{});
   types.emplace_back(RodClosure{});

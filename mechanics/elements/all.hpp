@@ -21,6 +21,7 @@
 #include "mechanics/elements/motor.hpp"
 #include "mechanics/elements/planar.hpp"
 #include "mechanics/elements/plane_contact.hpp"
+#include "mechanics/elements/play.hpp"
 #include "mechanics/elements/prismatic.hpp"
 #include "mechanics/elements/relative_motion.hpp"
 #include "mechanics/elements/revolute.hpp"

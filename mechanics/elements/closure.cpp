@@ -5,6 +5,7 @@
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/closing.hpp"
+#include "mechanics/elements/across.hpp"
 
 namespace gamut {
 namespace {
@@ -23,27 +24,6 @@ constexpr std::array held = {Held{"ball", true, true, false}, Held{"hinge", true
                              Held{"plane", true, false, false}};
 
 const Held& heldAs(const std::string& as) { return *std::ranges::find(held, as, &Held::as); }
-
-/// Two unit vectors that are perpendicular to a unit vector, and to each other.
-template <class S>
-std::array<Vector3<S>, 2> across(const Axis& axis) {
-  if (axis.isAligned()) {
-    std::array<Vector3<S>, 2> unit;
-    for (int i = 0; i < 2; ++i) {
-      unit[i] = zeroVector<S>();
-      unit[i][(axis.index() + 1 + i) % 3] = S(1.0);
-    }
-    return unit;
-  }
-  const auto direction = axis.direction();
-  const auto least =
-      std::ranges::min_element(direction, {}, [](double c) { return c < 0 ? -c : c; }) - direction.begin();
-  Vector3<S> other = zeroVector<S>();
-  other[least] = S(1.0);
-  using std::sqrt;
-  const Vector3<S> u = axis.unit<S>(), first = u.cross(other) / S(sqrt(S(S(1.0) - square(u[least]))));
-  return {first, u.cross(first)};
-}
 
 void describeEnds(Fields& f, std::string& from, std::string& to, ExpressionVector& fromPoint,
                   ExpressionVector& toPoint) {

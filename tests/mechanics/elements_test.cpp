@@ -98,8 +98,8 @@ TEST(ElementTypes, GiveAValueForAllThatTheySayCanBeMeasured) {
     if (std::ranges::none_of(mechanism.elements(), [&](const Described& e) { return e.type() == type.type(); }))
       missing.push_back(type.type());
   EXPECT_THAT(missing, ::testing::IsSubsetOf({"universal", "cylindrical", "screw", "planar", "spherical", "skate",
-                                              "rolling-wheel", "rolling-ball", "free", "closure", "rod", "rigid-stop",
-                                              "table-drive"}))
+                                              "rolling-wheel", "rolling-ball", "free", "play", "guide-play", "closure",
+                                              "rod", "rigid-stop", "table-drive"}))
       << "have tests of their own";
   Assembly<double> assembly(mechanism);
   for (const std::string& quantity : mechanism.outputQuantities())

@@ -970,7 +970,7 @@ constexpr BadStudy badStudies[] = {
      "that kind"},
     {"type = \"revolute\"", "type = \"revolut\"",
      "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, screw, "
-     "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, "
+     "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, play, guide-play, "
      "link, closure, rod, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, "
      "joint-stop, "
      "rigid-stop, plane-contact, "
@@ -978,7 +978,7 @@ constexpr BadStudy badStudies[] = {
      "sphere, capsule, box, separation)"},
     {"type = \"revolute\"", "",
      "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, screw, "
-     "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, "
+     "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, play, guide-play, "
      "link, closure, rod, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, "
      "joint-stop, "
      "rigid-stop, plane-contact, "
