@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "analyses/flow/circles.hpp"
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/flow.hpp"
 #include "analyses/flow/outputs/outputs.hpp"
@@ -327,26 +328,97 @@ int richerDegree(const Monomials& monomials) {
   return monomials.symbols() > fewSymbols && count <= most ? monomials.degree() + 1 : 0;
 }
 
-std::shared_ptr<const FlowModels> modelsOf(const ImageFinder& image, double t, const std::vector<int>& modelled) {
+/// By what is known of angles that go far round.
+void narrow(Image& image, const CircleImage& circles) {
+  for (std::size_t row = 0; row < circles.ranges.size(); ++row)
+    for (std::size_t o = 0; o < circles.ranges[row].size(); ++o) {
+      Interval& range = image.ranges[row][o];
+      const bool isNarrower = width(circles.ranges[row][o]) < width(range);
+      if (row == 0 && isNarrower) image.extremes[o] = circles.extremes[row][o];
+      range = intersection(range, circles.ranges[row][o]);
+      if (row > 0) range = intersection(range, image.ranges[row - 1][o]);
+    }
+  if (!circles.extremes.empty()) image.levelExtremes.assign(circles.extremes.begin() + 1, circles.extremes.end());
+}
+
+bool areAllKnown(const CircleImage& circles) {
+  return !circles.ranges.empty() && std::ranges::all_of(circles.radius, [](double r) { return std::isfinite(r); });
+}
+
+/// The polynomial of an output in other monomials, in which each component of the box has the symbol that it has there;
+/// what these do not hold counts in the radius.
+std::vector<double> movedTo(const Monomials& monomials, const Embedding& embedding, const CircleImage& circles,
+                            int output, double& radius) {
+  std::vector<double> moved(at(monomials.count()), 0.0);
+  double left = 0;
+  for (int g = 0; g < circles.monomials->count(); ++g) {
+    const double c = circles.polynomial[output][g];
+    int place = 0;
+    for (std::size_t l = 0; l < circles.component.size() && c != 0; ++l)
+      for (int n = circles.monomials->exponent(g, static_cast<int>(l)); n > 0 && place >= 0; --n)
+        place = monomials.shifted(place, embedding.components[circles.component[l]].symbol, 1);
+    if (place < 0)
+      left += std::fabs(c);
+    else
+      moved[place] += c;
+  }
+  radius = (radius + left * bounds::up) * bounds::up;
+  return moved;
+}
+
+std::shared_ptr<FlowModels> modelsIn(const Embedding& embedding, std::size_t modelled) {
   auto models = std::make_shared<FlowModels>();
   models->at.resize(1);
   models->over.resize(1);
-  for (const Embedded& e : image.embedding().components) models->components.push_back({e.centre, e.half, e.symbol});
-  models->symbols = image.embedding().symbols;
-  models->modelled = modelled.size();
+  for (const Embedded& e : embedding.components) models->components.push_back({e.centre, e.half, e.symbol});
+  models->symbols = embedding.symbols;
+  models->modelled = modelled;
+  return models;
+}
+
+/// `ranges`: of all outputs, over the whole box.
+std::shared_ptr<const FlowModels> modelsOf(const ImageFinder& image, double t, const std::vector<int>& modelled,
+                                           const std::vector<Interval>& ranges) {
+  const auto models = modelsIn(image.embedding(), modelled.size());
   for (const ImagePart& part : image.parts()) {
     auto snapshot = std::make_shared<FlowSnapshot>();
     snapshot->time = t;
     snapshot->part = part.part;
     snapshot->monomials = image.monomials();
-    for (const int o : modelled)
-      snapshot->outputs.push_back(
-          part.polynomial[o].empty()
-              ? OutputModel{{}, part.radius[o], part.range[o]}
-              : modelOf(part.polynomial[o].data(), part.radius[o], *image.monomials(), models->symbols, part.range[o]));
+    for (const int o : modelled) {
+      const Interval bound = intersection(part.range[o], ranges[o]);
+      snapshot->outputs.push_back(part.polynomial[o].empty() ? OutputModel{{}, part.radius[o], bound}
+                                                             : modelOf(part.polynomial[o].data(), part.radius[o],
+                                                                       *image.monomials(), models->symbols, bound));
+    }
     models->at[0].push_back(std::move(snapshot));
   }
   return models;
+}
+
+/// Of far angles models know nothing but how far they move outputs.
+Image imageOf(const CircleImage& circles, const Embedding& embedding, double t, const std::vector<int>& modelled) {
+  Image image{circles.ranges, nullptr, circles.extremes[0], {}, 1};
+  narrow(image, circles);
+  if (modelled.empty()) return image;
+  constexpr double mostMonomials = 8000;
+  const std::vector<int> weights(at(embedding.symbols), 1);
+  int degree = circles.monomials->degree();
+  while (degree > 1 && countOfMonomials(weights, degree) > mostMonomials) --degree;
+  auto snapshot = std::make_shared<FlowSnapshot>();
+  snapshot->time = t;
+  snapshot->part = {std::vector<double>(weights.size(), 0.0), std::vector<double>(weights.size(), 1.0)};
+  const auto monomials = std::make_shared<const Monomials>(weights, degree);
+  snapshot->monomials = monomials;
+  for (const int o : modelled) {
+    double radius = circles.radius[o];
+    const std::vector<double> polynomial = movedTo(*monomials, embedding, circles, o, radius);
+    snapshot->outputs.push_back(modelOf(polynomial.data(), radius, *monomials, embedding.symbols, image.ranges[0][o]));
+  }
+  const auto models = modelsIn(embedding, modelled.size());
+  models->at[0].push_back(std::move(snapshot));
+  image.models = models;
+  return image;
 }
 
 }  // namespace
@@ -360,6 +432,11 @@ Image findImage(const Program& g, double t, const Box& box, const std::vector<Bo
     std::vector<int> counted = modelled;
     for (int o = 0; o < g.outputs(); ++o)
       if (modelled.empty()) counted.push_back(o);
+    const CircleImage circles = imageByCircles(g, t, box, levels, degree, cancelled, remainders);
+    constexpr int many = 8, few = 2;  // of so many symbols, or beyond so many of them, far angles are bisected in vain
+    if (const Embedding embedding(box, 0, {}, {}, 0, remainders);
+        circles.areWhole && (circles.angles > few || embedding.symbols > many) && areAllKnown(circles))
+      return imageOf(circles, embedding, t, modelled);
     auto found = std::make_unique<ImageFinder>(g, t, box, degree, cancelled, remainders);
     const double unknown = found->unknown(counted);
     if (const int richer = richerDegree(*found->monomials()); degree < 0 && work > 0 && richer > 0 && unknown > enough)
@@ -368,8 +445,9 @@ Image findImage(const Program& g, double t, const Box& box, const std::vector<Bo
         found = std::move(other);
     ImageFinder& finder = *found;
     finder.bisect(counted, work);
-    Image image{finder.ranges(levels), nullptr, finder.extremes(), finder.parts().size()};
-    if (!modelled.empty()) image.models = modelsOf(finder, t, modelled);
+    Image image{finder.ranges(levels), nullptr, finder.extremes(), {}, finder.parts().size()};
+    narrow(image, circles);
+    if (!modelled.empty()) image.models = modelsOf(finder, t, modelled, image.ranges[0]);
     return image;
   } catch (const Cancelled&) {
     return {};

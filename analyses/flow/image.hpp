@@ -16,9 +16,10 @@ namespace gamut {
 struct Image {
   /// [0] over the box, [i] over levels[i-1]; empty if `cancelled` was set before all was found.
   std::vector<std::vector<Interval>> ranges;
-  std::shared_ptr<const FlowModels> models;  ///< at the one time t; null if none are asked for
-  std::vector<OutputExtremes> extremes;      ///< over the box, one an output
-  std::size_t parts = 0;                     ///< of the box
+  std::shared_ptr<const FlowModels> models;                ///< at the one time t; null if none are asked for
+  std::vector<OutputExtremes> extremes;                    ///< over the box, one an output
+  std::vector<std::vector<OutputExtremes>> levelExtremes;  ///< likewise over levels[i], where angles go far round
+  std::size_t parts = 0;                                   ///< of the box
 };
 
 /// So many products of coefficients are for parts of the box, at most.

@@ -7,8 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analyses/flow/circles.hpp"
 #include "analyses/flow/flow.hpp"
 #include "analyses/flow/image.hpp"
+#include "scalars/program/recorder.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/sampled_study.hpp"
 #include "studies/running/units.hpp"
@@ -66,7 +68,10 @@ class Encloser {
  private:
   void encloseMotion() {
     const Motion& motion = run_.machine.equations();  // of the samples', what varies in time has a course
-    const Tube tube = Flow(motion.f, motion.g, options())
+    constexpr std::size_t few = 2, many = 8;  // angles, quantities: beyond, a flow does nothing about far angles
+    const std::size_t far = study_.isMotionGiven() ? countFarAngles(motion.g, 0, run_.machine.box) : 0;
+    const bool isRough = far > few || (far > 0 && study_.uncertain.size() > many);
+    const Tube tube = Flow(motion.f, motion.g, isRough ? roughly(options()) : options())
                           .enclose(run_.machine.box, study_.horizon, study_.times, run_.machine.levels);
     if (tube.times() != study_.times) throw std::logic_error("the flow's output times are not the study's");
     found.reachedTimes = tube.reachedTimes();
@@ -87,6 +92,72 @@ class Encloser {
     cutCpu_ = tube.cutCpuSeconds();
     levelWork_ = tube.levelWork();
     enclosePlaces(run_, seen_, tube, places_);
+    if (far > 0) narrowByCircles(motion.g);
+    if (!isRough) return;
+    interval.tightness = std::nan("");
+    interval.shortfall.clear();
+  }
+
+  /// For what circles tell more of.
+  static FlowOptions roughly(FlowOptions flow) {
+    constexpr double loose = 1e6;
+    flow.split = false;
+    flow.degree = 2;
+    flow.tightness = loose;
+    flow.tightnessOf.assign(flow.tightnessOf.size(), loose);
+    flow.levelShare = flow.levelBudget = 0;
+    return flow;
+  }
+
+  /// A motion that is given is an image at each time, and with time as one quantity more from each to the next: where
+  /// angles go far round, more is known of that.
+  void narrowByCircles(const Program& g) {
+    const std::size_t rows = found.reachedTimes, outputs = study_.outputs.size();
+    const Program overTime = withTimeGiven(g);
+    const auto narrow = [&](std::size_t i, Bounds& bounds, const std::vector<Interval>& by) {
+      for (std::size_t j = 0; j < outputs; ++j) {
+        const Interval both = intersection(Interval(bounds.lower(i, j), bounds.upper(i, j)), by[j]);
+        bounds.lower(i, j) = both.lower();
+        bounds.upper(i, j) = both.upper();
+      }
+    };
+    const auto rowOfBounds = [&](std::size_t i, const Bounds& bounds) {
+      std::vector<Interval> row;
+      for (std::size_t j = 0; j < outputs; ++j) row.emplace_back(bounds.lower(i, j), bounds.upper(i, j));
+      return row;
+    };
+    const auto imageOf = [&](const Program& program, double t, const Box& box, const std::vector<Box>& levels) {
+      return imageByCircles(program, t, box, levels, study_.flow.degree, run_.watch.stop(), run_.machine.remainders);
+    };
+    for (std::size_t i = 0; i < rows; ++i) {
+      const CircleImage image = imageOf(g, study_.times[i], run_.machine.box, run_.machine.levels);
+      if (image.ranges.empty()) continue;
+      narrow(i, interval.at, image.ranges[0]);
+      for (std::size_t level = 0; level < cuts_.size(); ++level) narrow(i, cuts_[level], image.ranges[level + 1]);
+      if (i < found.extremes.size()) found.extremes[i] = image.extremes[0];
+      found.levelExtremes.insert(found.levelExtremes.end(), image.extremes.begin() + 1, image.extremes.end());
+      Box box = run_.machine.box;
+      box.emplace_back(study_.times[i > 0 ? i - 1 : 0], study_.times[i]);
+      if (const CircleImage over = imageOf(overTime, 0, box, {}); !over.ranges.empty())
+        narrow(i, interval.over, over.ranges[0]);
+    }
+    // What holds over an interval holds at its ends, and what holds at a level at those above it.
+    for (std::size_t i = 0; i < rows; ++i) {
+      narrow(i, interval.at, rowOfBounds(i, interval.over));
+      if (i + 1 < rows) narrow(i, interval.at, rowOfBounds(i + 1, interval.over));
+      for (std::size_t level = 0; level < cuts_.size(); ++level)
+        narrow(i, cuts_[level], rowOfBounds(i, level == 0 ? interval.at : cuts_[level - 1]));
+    }
+  }
+
+  /// With time as a last parameter.
+  static Program withTimeGiven(const Program& g) {
+    Recorder recorder(g.states(), g.parameters() + 1);
+    std::vector<int> instead(g.nodes().size(), -1), outputs;
+    instead[static_cast<std::size_t>(g.states() + g.parameters())] = recorder.parameter(g.parameters());
+    const std::vector<int> here = recorder.append(g, {}, instead);
+    for (const int node : g.outputNodes()) outputs.push_back(here[static_cast<std::size_t>(node)]);
+    return recorder.finish(outputs);
   }
 
   FlowOptions options() const {
@@ -143,6 +214,7 @@ class Encloser {
     if (image.ranges.empty()) found.why = run_.watch.why();
     if (!study_.requirements.empty() || asksForDistributions(study_)) models_ = image.models;
     found.extremes = {image.extremes};
+    found.levelExtremes = image.levelExtremes;
     enclosePlaces(run_, seen_, places_);
     interval.pieces = static_cast<std::int64_t>(std::max<std::size_t>(image.parts, 1));
     found.reachedTimes = 1;

@@ -49,6 +49,11 @@ std::vector<Candidate> candidatesOf(const Study& study, const Enclosure& enclosu
       add(extremes.greatest - sampled.upper(row, o), width, extremes.greatest, extremes.greatestAt);
     }
   std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::missing);
+  for (const std::vector<OutputExtremes>& level : enclosure.levelExtremes)  // hardly any sample is where these are
+    for (const int output : outputs)
+      for (const auto& values :
+           {&level[static_cast<std::size_t>(output)].leastAt, &level[static_cast<std::size_t>(output)].greatestAt})
+        if (!values->empty()) candidates.push_back({0, values});
   return candidates;
 }
 
@@ -67,11 +72,14 @@ std::vector<std::size_t> rowsOfExtremes(const Study& study) {
 std::vector<std::vector<double>> extremePoints(const Study& study, const Enclosure& enclosure,
                                                const SampledMotion& samples) {
   constexpr double alike = 0.05;  // of half the ranges: of what turns there little is lost
-  constexpr std::size_t most = 256;
+  constexpr std::size_t mostOfAll = 256, mostOfLevels = 1024;
   const UncertainMotion& motion = samples.motion;
   std::vector<std::vector<double>> points;
   for (const Candidate& candidate : candidatesOf(study, enclosure, *samples.ensemble)) {
-    if (points.size() == most) break;
+    if (points.size() == (candidate.missing > 0 ? mostOfAll : mostOfAll + mostOfLevels)) {
+      if (candidate.missing > 0) continue;
+      break;
+    }
     std::vector<double> values;
     for (std::size_t q = 0; q < motion.uncertain.size(); ++q)
       values.push_back(study.uncertain[q].varies ? motion.uncertain[q].nominal : (*candidate.values)[motion.slot[q]]);

@@ -57,7 +57,8 @@ struct Enclosure {
   FlowCause cause;                ///< of an early end
   std::vector<double> nonlinear;  ///< Tube::nonlinear
   TightenedModels models;         ///< of the margins, and, where distributions are asked for, of all other outputs
-  std::vector<std::vector<OutputExtremes>> extremes;  ///< [time][output], as in Tube; none of some times
+  std::vector<std::vector<OutputExtremes>> extremes;       ///< [time][output], as in Tube; none of some times
+  std::vector<std::vector<OutputExtremes>> levelExtremes;  ///< [alpha-cut][output], as in Image
 };
 
 // In the order in which they run.

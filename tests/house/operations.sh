@@ -4,8 +4,8 @@
 set -euo pipefail
 cd "$1"
 # Known elsewhere: 1/x is arithmetic, atan2 is found again by its formula of sqrt and atan (scalars/program/angles.cpp),
-# and what bends or jumps is followed from side to side.
-known=" recip sqrt atan abs sign "
+# what bends or jumps is followed from side to side, and sines and cosines lie on circles (analyses/flow/circles.cpp).
+known=" recip sqrt atan abs sign sin "
 names=$(sed -nE 's/^ *each\(([a-z0-9]+)\).*/\1/p' scalars/operations/names.hpp)
 [ -n "$names" ] || { echo "scalars/operations/names.hpp lists no functions"; exit 2; }
 wrong=0 count=0
