@@ -31,7 +31,7 @@ struct Estimated {
 /// [cell][quantity], of the so many cells of a slice. Samples are evaluated block by block, those of both sets twice,
 /// since their mean comes first: all outputs of all samples at once would be gigabytes of many outputs. Empty where it
 /// was cancelled: half of the samples would be no estimate of what is asked.
-std::vector<Estimated> estimated(const SurrogateEvaluator& evaluator, std::size_t slice, std::size_t cells,
+std::vector<Estimated> estimated(const SampledOutputs& sampled, std::size_t slice, std::size_t cells,
                                  const std::vector<double>& a, const std::vector<double>& b, std::size_t n,
                                  const std::atomic<bool>* cancelled) {
   const auto isCancelled = [&] { return cancelled != nullptr && *cancelled; };
@@ -44,8 +44,8 @@ std::vector<Estimated> estimated(const SurrogateEvaluator& evaluator, std::size_
         return std::span(values).subspan(begin * n, count * n);
       };
       for (std::vector<double>* numbers : {&ofA, &ofB}) numbers->resize(count * cells);
-      evaluator.evaluate(slice, own(a), ofA);
-      evaluator.evaluate(slice, own(b), ofB);
+      sampled.evaluate(slice, own(a), ofA);
+      sampled.evaluate(slice, own(b), ofB);
       use(own(a), own(b), count);
     }
   };
@@ -60,7 +60,7 @@ std::vector<Estimated> estimated(const SurrogateEvaluator& evaluator, std::size_
     for (std::size_t q = 0; q < n; ++q) {
       mixed.assign(ownA.begin(), ownA.end());
       for (std::size_t i = 0; i < count; ++i) mixed[i * n + q] = ownB[i * n + q];
-      evaluator.evaluate(slice, mixed, ofMixed);
+      sampled.evaluate(slice, mixed, ofMixed);
       for (std::size_t i = 0; i < count * cells; ++i) {
         const std::size_t cell = i % cells;
         const double x = ofA[i] - mean[cell], y = ofB[i] - mean[cell], z = ofMixed[i] - mean[cell];
@@ -76,7 +76,7 @@ std::vector<Estimated> estimated(const SurrogateEvaluator& evaluator, std::size_
 
 }  // namespace
 
-SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::size_t times, std::size_t outputs,
+SobolEstimates estimateSobolIndices(const SampledOutputs& sampled, std::size_t times, std::size_t outputs,
                                     const std::vector<const Uncertain*>& uncertain, std::size_t samples,
                                     std::uint64_t seed, const std::atomic<bool>* cancelled) {
   const std::size_t n = uncertain.size();
@@ -86,17 +86,17 @@ SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::si
     std::vector<double> values;
     for (std::size_t i = 0; i < samples; ++i)
       for (const Uncertain* of : uncertain) values.push_back(of->distribution.quantile(share(engine)));
-    for (std::size_t i = 0; i < samples; ++i) evaluator.settle(std::span(values).subspan(i * n, n));
+    for (std::size_t i = 0; i < samples; ++i) sampled.settle(std::span(values).subspan(i * n, n));
     return values;
   };
   const std::vector<double> a = drawn(), b = drawn();
   SobolEstimates estimates;
   for (auto* numbers : {&estimates.first, &estimates.firstError, &estimates.total, &estimates.totalError})
     numbers->assign(times * outputs * n, std::numeric_limits<double>::quiet_NaN());
-  const std::vector<SurrogateEvaluator::Slice> slices = evaluator.slices();
+  const std::vector<SurrogateEvaluator::Slice>& slices = sampled.slices;
   for (std::size_t s = 0; s < slices.size() && n > 0; ++s) {
     const std::size_t from = slices[s].first * outputs * n;
-    const std::vector<Estimated> found = estimated(evaluator, s, slices[s].count * outputs, a, b, n, cancelled);
+    const std::vector<Estimated> found = estimated(sampled, s, slices[s].count * outputs, a, b, n, cancelled);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const auto& [first, total] = found[i];
       if (!(first.v > 0) || !std::isfinite(first.v)) continue;
@@ -108,6 +108,16 @@ SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::si
     }
   }
   return estimates;
+}
+
+SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::size_t times, std::size_t outputs,
+                                    const std::vector<const Uncertain*>& uncertain, std::size_t samples,
+                                    std::uint64_t seed, const std::atomic<bool>* cancelled) {
+  const SampledOutputs sampled{evaluator.slices(), [&](std::span<double> values) { evaluator.settle(values); },
+                               [&](std::size_t slice, std::span<const double> values, std::span<double> found) {
+                                 evaluator.evaluate(slice, values, found);
+                               }};
+  return estimateSobolIndices(sampled, times, outputs, uncertain, samples, seed, cancelled);
 }
 
 }  // namespace gamut

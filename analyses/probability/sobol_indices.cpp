@@ -34,9 +34,10 @@ struct Slice {
 class Variances {
  public:
   Variances(const Surrogate& surrogate, const std::vector<SurrogatePart>& parts, std::size_t output,
-            const QuantityMasses& masses)
+            const QuantityMasses& masses, double work)
       : symbols_(surrogate.symbols), masses_(masses) {
-    for (const SurrogatePart& part : parts) add(part, part.outputs[output]);
+    const std::size_t terms = mostTerms(parts, work);
+    for (const SurrogatePart& part : parts) add(part, part.outputs[output], terms);
     for (Slice& piece : pieces_) tabulate(piece);
     const double middle = midpoint(mean());
     about_ = std::isfinite(middle) ? middle : 0;  // of numbers near the mean little cancels
@@ -147,7 +148,20 @@ class Variances {
     std::map<Powers, Interval> terms;
   };
 
-  void add(const SurrogatePart& part, const OutputModel& model) {
+  /// Of a part: all pairs of terms once, and once more for each symbol in which parts are cut, then also of about half
+  /// of the pairs of parts.
+  std::size_t mostTerms(const std::vector<SurrogatePart>& parts, double work) const {
+    constexpr double least = 64, most = 1200;
+    const auto count = static_cast<double>(parts.size());
+    double cut = 0;
+    for (int l = 0; l < symbols_; ++l)
+      cut += std::ranges::any_of(parts, [&](const SurrogatePart& part) { return part.part.half[l] < 1; }) ? 1 : 0;
+    const double pairs = 0.5 * count * (1 + cut) + 0.25 * cut * count * (count - 1);
+    const double each = Work::of(Work::momentTerm, pairs * symbols_);
+    return static_cast<std::size_t>(std::clamp(std::sqrt(work / std::max(each, 1.0)), least, most));
+  }
+
+  void add(const SurrogatePart& part, const OutputModel& model, std::size_t most) {
     Slice piece{&part.part, {{{}, 0.0}}, model.radius, {}, {}};
     if (model.c.empty() || !std::isfinite(model.radius)) {
       piece.terms.front().second = midpoint(model.bound);
@@ -156,7 +170,6 @@ class Variances {
       piece.terms.front().second = model.c[0];
       // Terms that are next to nothing together, and the least of very many, count as error: |η^e| <= 1.
       constexpr double next = 1e-6;
-      constexpr std::size_t most = 1200;
       std::vector<std::size_t> order(model.c.size() - 1);
       std::iota(order.begin(), order.end(), std::size_t{1});
       std::ranges::sort(order, std::greater<>(), [&](std::size_t g) { return std::fabs(model.c[g]); });
@@ -297,7 +310,7 @@ Interval shareOf(const Interval& partSquare, const Interval& square, double r) {
 }  // namespace
 
 SobolIndices sobolIndices(const Surrogate& surrogate, const std::vector<SurrogatePart>& parts, std::size_t output,
-                          const QuantityMasses& masses) {
+                          const QuantityMasses& masses, double work) {
   SobolIndices indices;
   indices.first.assign(surrogate.quantities.size(), Interval(0.0, 1.0));
   indices.total = indices.first;
@@ -305,7 +318,7 @@ SobolIndices sobolIndices(const Surrogate& surrogate, const std::vector<Surrogat
     return QuantityMasses::hold(part.part) && isBounded(part.outputs[output].bound);
   };
   if (parts.empty() || !std::ranges::all_of(parts, isKnown)) return indices;
-  const Variances of(surrogate, parts, output, masses);
+  const Variances of(surrogate, parts, output, masses, work);
   std::vector<char> all(of.symbols(), 1);
   const double r = of.radius();
   const Interval mean = of.mean(), meanSquare = sqr(mean);

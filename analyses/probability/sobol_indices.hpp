@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "analyses/probability/quantity_masses.hpp"
@@ -18,8 +19,9 @@ struct SobolIndices {
   std::vector<Interval> first, total;
 };
 
-/// Of one output, at the time that the parts are of.
+/// Of one output, at the time that the parts are of. Where it would cost more than `work` (work.hpp), the least terms
+/// of polynomials count as their error.
 SobolIndices sobolIndices(const Surrogate& surrogate, const std::vector<SurrogatePart>& parts, std::size_t output,
-                          const QuantityMasses& masses);
+                          const QuantityMasses& masses, double work = std::numeric_limits<double>::infinity());
 
 }  // namespace gamut

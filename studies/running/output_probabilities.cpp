@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <span>
 
+#include "analyses/flow/circles.hpp"
+#include "analyses/flow/flow.hpp"
 #include "analyses/probability/output_distributions.hpp"
 #include "analyses/probability/quantity_masses.hpp"
 #include "analyses/probability/sobol_estimates.hpp"
@@ -13,6 +17,7 @@
 #include "analyses/surrogate/pinching.hpp"
 #include "analyses/surrogate/surrogate_evaluator.hpp"
 #include "analyses/workers.hpp"
+#include "scalars/evaluation/sample_pack.hpp"
 #include "studies/results/instants.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
@@ -165,10 +170,12 @@ class Probabilities {
       return;
     }
     const QuantityMasses masses(surrogate_.get(), uncertain_);
+    const double work = std::max(workLeft(), Work::perSecond) /
+                        static_cast<double>(rows.size() * std::max<std::size_t>(outputs_.size(), 1));
     forEachIndex(run_.options.jobs, rows.size() * outputs_.size(), run_.watch.stop(), [&] {
       return [&](std::size_t i) {
         const std::size_t at = i / outputs_.size(), k = i % outputs_.size();
-        const SobolIndices indices = sobolIndices(surrogate_.get(), *surrogate_.partsAt(rows[at]), k, masses);
+        const SobolIndices indices = sobolIndices(surrogate_.get(), *surrogate_.partsAt(rows[at]), k, masses, work);
         const auto put = [at, output = outputs_[k]](const Interval& bounds, BoundGrids& to, auto... quantity) {
           if (!isBounded(bounds)) return;
           to.lower(at, output, quantity...) = bounds.lower();
@@ -190,6 +197,11 @@ class Probabilities {
     pinched = Grid({rows.size(), count_, run_.study.uncertain.size()});
     std::vector<double> nominal;
     for (const std::size_t q : quantities_) nominal.push_back(run_.study.uncertain[q].uncertain.nominal);
+    const Machine& machine = run_.machine;
+    if (!run_.moves() && countFarAngles(machine.motion.motion.g, 0, machine.box) > 0) {
+      pinchImage(nominal);
+      return;
+    }
     forEachIndex(run_.options.jobs, rows.size() * outputs_.size(), run_.watch.stop(), [&] {
       return [&](std::size_t i) {
         const std::size_t row = i / outputs_.size(), k = i % outputs_.size();
@@ -200,24 +212,55 @@ class Probabilities {
     });
   }
 
+  /// By an image for each quantity: of far angles it knows more than polynomials of them do.
+  void pinchImage(const std::vector<double>& nominal) {
+    const Machine& machine = run_.machine;
+    const auto rangesOver = [&](const Box& box) {
+      const auto found = encloseImage(machine.motion.motion.g, 0, box, {}, run_.study.flow.degree, run_.watch.stop(),
+                                      machine.remainders);
+      return found.empty() ? std::vector<Interval>(count_, Interval::entire()) : found[0];
+    };
+    const std::vector<Interval> all = rangesOver(machine.box);
+    for (std::size_t q = 0; q < quantities_.size(); ++q) {
+      Box box = machine.box;
+      box[static_cast<std::size_t>(machine.constants[q].slot)] = Interval(nominal[q]);
+      const std::vector<Interval> ranges = rangesOver(box);
+      for (const int output : outputs_) {
+        const auto o = static_cast<std::size_t>(output);
+        const bool isKnown = isBounded(all[o]) && isBounded(ranges[o]) && width(all[o]) > 0;
+        results_.sensitivity.pinched(0, o, quantities_[q]) =
+            isKnown ? std::clamp(1 - width(ranges[o]) / width(all[o]), 0.0, 1.0) : std::nan("");
+      }
+    }
+  }
+
   void estimateIndices(const std::vector<std::size_t>& rows) {
     SensitivityResult& result = results_.sensitivity;
     const std::size_t n = quantities_.size();
     if (n == 0 || *run_.watch.stop()) return;
     constexpr double least = 256, most = 8192, beside = 30;
-    double terms = 0;  // of all outputs at all these times, in all
+    const Program& g = run_.machine.motion.motion.g;
+    double terms = 0;  // of all outputs at all these times, in all; or operations, where nothing moves
     for (const std::size_t row : rows)
       for (const OutputModel& model : surrogate_.partsAt(row)->front().outputs)
         terms += static_cast<double>(model.c.size()) + beside;
+    if (!run_.moves()) terms = static_cast<double>(g.nodes().size()) + beside;
     const double work = Work::of(Work::evaluatedTerm, terms * static_cast<double>(n + 2));
     result.samples = static_cast<std::int64_t>(std::clamp(workLeft() / work, least, most));
+    const auto samples = static_cast<std::size_t>(result.samples);
     std::vector<std::size_t> outputs;
     for (const int output : outputs_) outputs.push_back(static_cast<std::size_t>(output));
     Work::count(Work::evaluatedTerm, terms * static_cast<double>(n + 2) * static_cast<double>(result.samples));
-    const SurrogateEvaluator evaluator(pack(surrogate_.get(), rows, outputs_, count_), rows, outputs);
-    const SobolEstimates estimates =
-        estimateSobolIndices(evaluator, rows.size(), outputs.size(), uncertain_,
-                             static_cast<std::size_t>(result.samples), results_.seed, run_.watch.stop());
+    SobolEstimates estimates;
+    if (run_.moves()) {
+      const SurrogateEvaluator evaluator(pack(surrogate_.get(), rows, outputs_, count_), rows, outputs);
+      estimates = estimateSobolIndices(evaluator, rows.size(), outputs.size(), uncertain_, samples, results_.seed,
+                                       run_.watch.stop());
+    } else {
+      const SampledOutputs positions{{{0, 1}}, [](std::span<double>) {}, positionsOfSamples()};
+      estimates =
+          estimateSobolIndices(positions, 1, outputs.size(), uncertain_, samples, results_.seed, run_.watch.stop());
+    }
     for (std::size_t cell = 0; cell < rows.size() * outputs.size(); ++cell)
       for (std::size_t q = 0; q < n; ++q) {
         const auto put = [&](const std::vector<double>& from, Grid& to) {
@@ -228,6 +271,25 @@ class Probabilities {
         put(estimates.total, result.totalSampled);
         put(estimates.totalError, result.totalError);
       }
+  }
+
+  /// Where nothing moves the outputs themselves cost no more than their polynomials.
+  std::function<void(std::size_t, std::span<const double>, std::span<double>)> positionsOfSamples() const {
+    return [this](std::size_t, std::span<const double> values, std::span<double> found) {
+      const Program& g = run_.machine.motion.motion.g;
+      const std::vector<double>& nominal = run_.machine.motion.nominal;
+      const std::size_t n = quantities_.size(), samples = values.size() / n;
+      std::vector<double> numbers(nominal.size() * samples), all(static_cast<std::size_t>(g.outputs()) * samples);
+      for (std::size_t slot = 0; slot < nominal.size(); ++slot)
+        std::fill_n(numbers.begin() + static_cast<std::ptrdiff_t>(slot * samples), samples, nominal[slot]);
+      for (std::size_t q = 0; q < n; ++q)
+        for (std::size_t i = 0; i < samples; ++i)
+          numbers[static_cast<std::size_t>(run_.machine.constants[q].slot) * samples + i] = values[i * n + q];
+      evaluateSamples(g, samples, 0, {}, numbers, all);
+      for (std::size_t i = 0; i < samples; ++i)
+        for (std::size_t k = 0; k < outputs_.size(); ++k)
+          found[i * outputs_.size() + k] = all[static_cast<std::size_t>(outputs_[k]) * samples + i];
+    };
   }
 
   /// Of as many output times as there is room for: all, or every so manyth, the last and those of distributions among

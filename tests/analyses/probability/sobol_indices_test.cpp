@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
+#include "analyses/work.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "tests/analyses/probability/images.hpp"
 
@@ -72,6 +74,32 @@ TEST(SobolIndices, AreOfPiecesThatDifferInDegree) {
     expectIs(indices.first[1], 0.5);
     expectIs(indices.total[0], 0.5);
     expectIs(indices.total[1], 1);
+  }
+}
+
+/// Of long polynomials the least terms are left out: quicker by far, and no less true.
+TEST(SobolIndices, CostNoMoreThanTheyMay) {
+  constexpr int quantities = 7;
+  const Function function(std::vector<Uncertain>(quantities, uniform(-1, 1)), [](const auto& x, auto& y) {
+    auto sum = 0.2 * x[0];
+    for (std::size_t q = 1; q < quantities; ++q) sum = sum + 0.2 * x[q];
+    y[0] = exp(sum);
+  });
+  const auto mean = [](double a) { return std::sinh(a) / a; };  // of exp(a x)
+  const double own = mean(0.4) - mean(0.2) * mean(0.2);
+  const double share = own * std::pow(mean(0.2), 2 * quantities - 2) /
+                       (std::pow(mean(0.4), quantities) - std::pow(mean(0.2), 2 * quantities));
+  const QuantityMasses masses(function.surrogate, function.uncertain());
+  double before = 0;
+  for (const double work : {std::numeric_limits<double>::infinity(), 1.0}) {
+    const auto began = Work::counted();
+    const SobolIndices indices = sobolIndices(function.surrogate, function.surrogate.at.back(), 0, masses, work);
+    const auto cost = static_cast<double>(Work::counted() - began);
+    EXPECT_TRUE(contains(indices.first[3], share)) << toString(indices.first[3]);
+    if (before > 0) {
+      EXPECT_LT(cost, 0.3 * before);
+    }
+    before = cost;
   }
 }
 
