@@ -69,7 +69,7 @@ class Assembly {
 
   /// The rows of motion R(v, v̇, v̈) of v = [q; z; λ], all numbers of which are free: of each coordinate its generalised
   /// force, inertia and multipliers λ of the loops included; of each own state by what its rate exceeds ż; the loops'
-  /// rows g. At t = 0. Every position has to be a coordinate.
+  /// rows g. Every position has to be a coordinate.
   std::vector<S> rowsOfMotion(std::span<const S> v, std::span<const S> rates, std::span<const S> accelerations,
                               const S& time);
 

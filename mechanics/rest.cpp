@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "mechanics/assembly.hpp"
@@ -42,6 +43,31 @@ void checkFit(const Mechanism& mechanism) {
       if (mechanism.isStruck(joint.name))
         refuse(joint.name, fmt::format("'{}' strikes a rigid end, where it may rest under any force", joint.name),
                "an elastic end (`joint-stop`)");
+}
+
+/// Those that rows need.
+std::set<Op> inputsOf(const Program& program) {
+  std::set<Op> inputs;
+  for (int i = 0; i < static_cast<int>(program.nodes().size()); ++i)
+    detail::forEachOperand(program.table(), i, [&](int operand) { inputs.insert(program.nodes()[operand].op); });
+  return inputs;
+}
+
+/// R(v, v̇, v̈) of so many v. Throws where nothing comes to rest, or in too many positions.
+Program recordRows(const Mechanism& mechanism, const std::vector<std::string>& freeParameters, int size) {
+  const Program rows = record(
+      3 * size, static_cast<int>(freeParameters.size()), size, [&](auto t, const auto& x, const auto& p, auto& y) {
+        const std::span<const Recorded> all(x);
+        Assembly<Recorded> assembly(mechanism, freeParameters, p);
+        std::ranges::copy(assembly.rowsOfMotion(all.first(size), all.subspan(size, size), all.last(size), t),
+                          y.begin());
+      });
+  const std::string first = mechanism.stateNames().front();
+  if (inputsOf(rows).contains(Op::time))
+    refuse(first, "forces or drives follow time, so that nothing comes to rest", "forces and drives without t");
+  if (!jumpsOf(rows).empty())
+    refuse(first, "something jumps, as dry friction does, which holds a mechanism in many positions", "smooth forces");
+  return rows;
 }
 
 Matrix matrixOf(const std::vector<double>& entries, int size) {
@@ -127,6 +153,47 @@ std::array<Recorded, 2> pairOf(std::span<const Recorded> lambda, const std::arra
 
 }  // namespace
 
+Program recordRest(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
+  checkFit(mechanism);
+  const int n = static_cast<int>(mechanism.positions()), states = static_cast<int>(mechanism.stateNames().size());
+  if (mechanism.isClosed() || states > n + mechanism.degreesOfFreedom())
+    refuse(mechanism.stateNames().front(),
+           "all positions of rest are looked for of open chains without own states alone",
+           "no loop and no element with a state");
+  const Program rows = recordRows(mechanism, freeParameters, n);
+  return record(n, rows.parameters(), n, [&](auto, const auto& q, const auto& p, auto& y) {
+    std::vector<Recorded> x(q.begin(), q.end());
+    x.resize(3 * q.size(), Recorded(0.0));
+    std::ranges::copy(evaluate<Recorded>(rows, x, {p.begin(), p.end()}), y.begin());
+  });
+}
+
+std::optional<int> negativeEigenvalues(const std::vector<Interval>& k, int n) {
+  Matrix middle(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      if (isEmpty(intersection(k[i * n + j], k[j * n + i])) || !isBounded(k[i * n + j])) return {};  // no potential
+      middle(i, j) = midpoint(k[i * n + j]);
+    }
+  Vector scale = middle.diagonal().cwiseAbs().unaryExpr([](double x) { return x > 0 ? 1 / std::sqrt(x) : 1.0; });
+  const Matrix scaled = scale.asDiagonal() * Matrix(0.5 * (middle + middle.transpose())) * scale.asDiagonal();
+  const Matrix t = scale.asDiagonal() * Eigen::SelfAdjointEigenSolver<Matrix>(scaled).eigenvectors();
+  int negatives = 0;
+  for (int a = 0; a < n; ++a) {
+    Interval disc(0.0);
+    for (int b = 0; b < n; ++b) {
+      Interval sum(0.0);
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+          sum += Interval(t(i, a)) * intersection(k[i * n + j], k[j * n + i]) * Interval(t(j, b));
+      disc += a == b ? sum : Interval(-1.0, 1.0) * sum;
+    }
+    if (contains(disc, 0.0)) return {};
+    negatives += disc.upper() < 0 ? 1 : 0;
+  }
+  return negatives;
+}
+
 template <class S>
 Rest::Linear<S> Rest::linearAt(const std::vector<S>& v, std::span<const S> parameters) const {
   std::vector<S> x(3 * v.size(), S(0.0));
@@ -160,23 +227,8 @@ Rest::Rest(const Mechanism& mechanism, const std::vector<std::string>& freeParam
     nominal_.push_back(start.initialState()[i]);
   }
   nominal_.resize(size_, 0.0);
-  const Program motion = record(3 * size_, parameters_, size_, [&](auto t, const auto& x, const auto& p, auto& y) {
-    const std::span<const Recorded> all(x);
-    Assembly<Recorded> assembly(mechanism, freeParameters, p);
-    const std::vector<Recorded> found =
-        assembly.rowsOfMotion(all.first(size_), all.subspan(size_, size_), all.last(size_), t);
-    for (std::size_t i = 0; i < found.size(); ++i) y[i] = found[i];
-  });
-  std::set<Op> inputs;  // those that rows need
-  for (int i = 0; i < static_cast<int>(motion.nodes().size()); ++i)
-    detail::forEachOperand(motion.table(), i, [&](int operand) { inputs.insert(motion.nodes()[operand].op); });
-  if (inputs.contains(Op::time))
-    refuse(names_.front(), "forces or drives follow time, so that nothing comes to rest",
-           "forces and drives without t");
-  if (!jumpsOf(motion).empty())
-    refuse(names_.front(), "something jumps, as dry friction does, which holds a mechanism in many positions",
-           "smooth forces");
-  dependsOnParameters_ = inputs.contains(Op::parameter);
+  const Program motion = recordRows(mechanism, freeParameters, size_);
+  dependsOnParameters_ = inputsOf(motion).contains(Op::parameter);
   linear_ = forwardDifferentiated(motion);
 
   std::vector<double> values;

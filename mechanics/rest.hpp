@@ -15,6 +15,7 @@
 #include <complex>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -26,6 +27,15 @@
 #include "scalars/recorded.hpp"
 
 namespace gamut {
+
+/// What the coordinates q of a mechanism without loops and own states lack to be at rest, R(q, 0, 0), of q and the free
+/// parameters: zero where it rests. Throws UnfitPart as Rest does.
+Program recordRest(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
+
+/// How many eigenvalues of a symmetric matrix, n by n and row by row, are below zero: with T near to its eigenvectors
+/// Tᵀ K T has as many (J. J. Sylvester), and those of its discs (S. Gershgorin) that lie below zero count them. Nothing
+/// where a disc holds zero, or where the matrix is certainly not symmetric.
+std::optional<int> negativeEigenvalues(const std::vector<Interval>& matrix, int n);
 
 class Rest {
  public:

@@ -288,11 +288,13 @@ std::string textSummary(const Results& results) {
   text += statisticsText(results);
   text += transformationText(results);
   if (results.distribution.present) text += probabilitiesText(results);
-  for (const Boxed<FurtherPart>& part : results.further)
-    if (part->present)
-      text += fmt::format("  {}: {}{}{}\n", part->title(), part->verb(),
-                          results.horizon > 0 ? " up to " + reachedText(part->reached) : "",
-                          part->why.empty() ? "" : ": " + part->why);
+  for (const Boxed<FurtherPart>& part : results.further) {
+    if (!part->present) continue;
+    text += fmt::format("  {}: {}{}{}\n", part->title(), part->verb(),
+                        results.horizon > 0 ? " up to " + reachedText(part->reached) : "",
+                        part->why.empty() ? "" : ": " + part->why);
+    for (const std::string& line : part->told()) text += fmt::format("    {}\n", line);
+  }
   const std::string spent = spentText(results);
   if (!isAnything || (costs.empty() && spent.empty())) return text;
   return text +

@@ -22,7 +22,11 @@ std::vector<Field> fieldsOf(IntervalResult& r) {
         unit::ofOutput,
         "enclosure over the whole interval since the output time before",
         {time, output}},
-       {"direct", &r.direct, unit::ofOutput, "where no time passes: enclosure by plain interval arithmetic", {time, output}}});
+       {"direct",
+        &r.direct,
+        unit::ofOutput,
+        "where no time passes: enclosure by plain interval arithmetic",
+        {time, output}}});
 }
 
 }  // namespace

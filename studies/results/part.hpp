@@ -73,6 +73,8 @@ struct FurtherPart : TimedPart {
   virtual std::string_view key() const = 0;
   /// What is done to what the title names: "enclosed".
   virtual std::string_view verb() const = 0;
+  /// What is found, in sentences of a line each, where that is not seen elsewhere.
+  virtual std::vector<std::string> told() const { return {}; }
   /// "derivatives were not enclosed to the end"; empty unless it was stopped.
   std::string unfinished() const;
 

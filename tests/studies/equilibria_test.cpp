@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analyses/samples/arbiter.hpp"
+#include "studies/analyses/equilibria.hpp"
 #include "studies/machine.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
@@ -241,6 +242,77 @@ TEST(Equilibria, MeetRequirements) {
   ASSERT_EQ(results.requirements.size(), 2);
 }
 
+/// A lever, of mass m at its end, and a spring from there to a pin, behind dead centre.
+std::string toggle(const std::string& number) {
+  return hinge("H" + number, "inertial", "L" + number, "0.5") +
+         element("link", "arm" + number,
+                 "from = \"L" + number + "\"\nto = \"E" + number + "\"\nvector = [\"a\", 0, 0]") +
+         element("mass", "m" + number, "at = \"E" + number + "\"\nmass = \"50 g\"") +
+         element("link", "post" + number, "from = \"inertial\"\nto = \"P" + number + "\"\nvector = [\"b\", 0, 0]") +
+         element("spring-damper", "S" + number,
+                 "from = \"P" + number + "\"\nto = \"E" + number + "\"\nstiffness = 2000\nrest_length = \"l\"");
+}
+
+std::string toggles(int many, const std::string& tolerance, const std::string& angles) {
+  std::string mechanism = "parameters = { a = \"40 mm\", b = \"60 mm\", l = \"35 mm\" }\n";
+  for (int i = 1; i <= many; ++i) mechanism += toggle(std::to_string(i));
+  return studyOf(mechanism + uncertain("a", tolerance) + uncertain("b", tolerance) + uncertain("l", tolerance),
+                 output("H1.angle")) +
+         "[equilibria]\nangles = \"" + angles + "\"\n";
+}
+
+Interval positionOf(const EquilibriaResult& found, std::size_t number, std::size_t coordinate = 0) {
+  return {found.lower(number, coordinate), found.upper(number, coordinate)};
+}
+
+/// Without weight: at dead centre, opposite, and where the spring has its length, cos θ = (a² + b² − l²)/(2 a b).
+TEST(Equilibria, OfAToggleAreAllFound) {
+  for (const char* tolerance : {"± 0.01 %", "± 2 %", "± 5 %"}) {
+    const Machine machine = machineOf(toggles(1, tolerance, "179 deg"));
+    const Results results = run(machine, {});
+    const EquilibriaResult& found = results.of<EquilibriaResult>();
+    ASSERT_TRUE(found.isComplete) << tolerance << found.why;
+    ASSERT_EQ(found.number.size(), 4) << tolerance;
+    EXPECT_EQ(found.stability, (std::vector<std::int64_t>{1, -1, 1, -1}));
+    Points points;
+    for (int number = 0; number < 40; ++number) {
+      const Vector p = point(points, machine, number);
+      const Precise angle = acos((p[0] * p[0] + p[1] * p[1] - p[2] * p[2]) / (2 * p[0] * p[1]));
+      EXPECT_THAT(positionOf(found, 0), testing::Encloses(Precise(-angle)));
+      EXPECT_THAT(positionOf(found, 1), testing::Encloses(Precise(0)));
+      EXPECT_THAT(positionOf(found, 2), testing::Encloses(angle));
+      EXPECT_THAT(positionOf(found, 3), testing::Encloses(Precise(turn / 2)));
+    }
+  }
+}
+
+TEST(Equilibria, OfTogglesAreAllCombinations) {
+  for (const auto& [many, positions] : {std::pair{2, 9}, {3, 27}}) {
+    const Results results = run(machineOf(toggles(many, "± 1 %", "80 deg")), {});
+    const EquilibriaResult& found = results.of<EquilibriaResult>();
+    EXPECT_TRUE(found.isComplete) << many << found.why;
+    ASSERT_EQ(found.number.size(), positions);
+    int stable = 0;
+    for (std::size_t k = 0; k < found.number.size(); ++k) {
+      bool isStable = true;
+      for (std::size_t i = 0; i < found.coordinate.size(); ++i)
+        isStable = isStable && !contains(positionOf(found, k, i), 0);
+      EXPECT_EQ(found.stability[k], isStable ? 1 : -1);
+      stable += isStable ? 1 : 0;
+    }
+    EXPECT_EQ(stable, 1 << many);
+  }
+}
+
+/// The region ends where the lever rests for some values.
+TEST(Equilibria, AreNotToldAsAllWhereOneMayLeaveTheRegion) {
+  const Results results = run(machineOf(toggles(1, "± 2 %", "0.1 rad")), {});
+  const EquilibriaResult& found = results.of<EquilibriaResult>();
+  EXPECT_FALSE(found.isComplete);
+  EXPECT_GT(found.open, 0);
+  EXPECT_THAT(found.told().front(), HasSubstr("others may be there"));
+}
+
 std::string refusalOf(const std::string& text) {
   try {
     run(machineOf(text), {});
@@ -266,6 +338,9 @@ TEST(Equilibria, SayWhatHasNone) {
   EXPECT_THAT(refusalOf(studyOf(held + element("joint-friction", "R", "joint = \"A\"\ncoulomb = 1"), asked)),
               HasSubstr("jumps"));
   EXPECT_THAT(refusalOf(studyOf(held, asked + output("frequency.2"))), HasSubstr("frequency.2"));
+  EXPECT_THAT(refusalOf(studyOf(held, asked) + "[equilibria]\ndisplacements = 1\n"),
+              HasSubstr("how far 'A.angle' is looked at is not said"));
+  EXPECT_THAT(refusalOf(studyOf(held, asked) + "[equilibria]\nangles = -1\n"), HasSubstr("is below 0"));
   EXPECT_THAT(refusalOf(studyOf(held + uncertain("A.angle", "± 0.1"), asked)),
               HasSubstr("'A.angle' is where rest is looked for first"));
   EXPECT_THAT(refusalOf(studyOf("gravity = [0, \"-9.81\", 0]\n" + hinge("A", "inertial", "K", "\"90 deg\"") + bob,

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "studies/analyses/derivatives.hpp"
+#include "studies/analyses/equilibria.hpp"
 #include "studies/results/results.hpp"
 
 namespace gamut {
@@ -199,6 +200,17 @@ inline Results sampleResults() {
   derivatives.time = {0, 0.01};
   derivatives.lower = Grid({2, 2, 1}, {1, nan, -2, 0.25});
   derivatives.upper = Grid({2, 2, 1}, {1.5, nan, -1, 0.5});
+  EquilibriaResult& equilibria = r.of<EquilibriaResult>();
+  equilibria.present = true;
+  equilibria.why = "1 part of the region is not settled";
+  equilibria.cpu = 0.0625;
+  equilibria.coordinates = "hinge.angle, slide.displacement";
+  equilibria.coordinate = {1, 2};
+  equilibria.number = {1, 2, 3};
+  equilibria.lower = Grid({3, 2}, {-1, 0, 0, 0.5, 1, 0.25});
+  equilibria.upper = Grid({3, 2}, {-0.5, 0, 0.25, 0.75, 1, 0.5});
+  equilibria.stability = {1, -1, 0};
+  equilibria.open = 1;
   SurrogateResult& polynomials = r.surrogate;
   polynomials.present = true;
   polynomials.centre = {1};

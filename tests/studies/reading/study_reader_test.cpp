@@ -909,7 +909,7 @@ constexpr BadStudy badStudies[] = {
     {"[uncertain]]\nname", "[uncertan]]\nname",
      "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, dependence, "
      "output, "
-     "requirement, interval, stochastic, distribution, sensitivity, fuzzy, limits)"},
+     "requirement, interval, stochastic, distribution, sensitivity, equilibria, fuzzy, limits)"},
     {"\"hinge.angle\"\ninterval", "\"hinges.*\"\ninterval",
      "s.toml:30:12: no quantity fits 'hinges.*'; expected a pattern that `gamut quantities` shows a quantity of"},
     {"\"hinge.angle\"\ninterval", "[\"hinge.angle\", \"hinge.rate\"]\ninterval",
@@ -926,7 +926,8 @@ constexpr BadStudy badStudies[] = {
      "s.toml:3:12: study.analysis is \"dynamic\"; expected 'dynamics'? (one of: dynamics, inverse-dynamics, "
      "kinematics, equilibria)"},
     {"analysis = \"dynamics\"", "",
-     "s.toml:1:1: 'study.analysis' is missing; expected \"dynamics\", \"inverse-dynamics\", \"kinematics\" or \"equilibria\""},
+     "s.toml:1:1: 'study.analysis' is missing; expected \"dynamics\", \"inverse-dynamics\", \"kinematics\" or "
+     "\"equilibria\""},
     {"analysis = \"dynamics\"", "analysis = \"kinematics\"",
      "s.toml:4:11: study.horizon has no meaning where no time passes; expected no such key"},
     {"horizon = 0.5", "", "s.toml:1:1: 'study.horizon' is missing; expected the time to be reached, in s"},
@@ -1593,9 +1594,9 @@ TEST(StudyReader, RefusesInKinematicsWhatOnlyAMotionHas) {
   text.erase(text.find("horizon"), text.find("compare") - text.find("horizon"));
   for (const char* key : {"tightness = 1.1", "tolerance = 1e-9", "order = 12", "split = true", "max_pieces = 5"}) {
     const std::string name(key, std::string_view(key).find(' '));
-    EXPECT_EQ(messageOf(text + "[interval]\n" + key + "\n"), "s.toml:42:" + std::to_string(name.size() + 4) +
-                                                                 ": interval." + name +
-                                                                 " has no meaning where no time passes; expected no such key");
+    EXPECT_EQ(messageOf(text + "[interval]\n" + key + "\n"),
+              "s.toml:42:" + std::to_string(name.size() + 4) + ": interval." + name +
+                  " has no meaning where no time passes; expected no such key");
   }
   EXPECT_EQ(messageOf(text + "[interval]\ndegree = 3\n"), "it was read");
   for (const char* times : {"0", "3", "[\"1 s\"]"})

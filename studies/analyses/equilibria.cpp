@@ -1,0 +1,162 @@
+// By branch and prune over the region. Stability of forces that have a potential: by the inertia of the stiffness
+// K = −∂R/∂q at one value of the quantities, which is that of all, for K is regular where a position is proved for
+// them.
+#include "studies/analyses/equilibria.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "analyses/roots/all_roots.hpp"
+#include "mechanics/rest.hpp"
+#include "scalars/evaluation/evaluate.hpp"
+#include "scalars/program/differentiation.hpp"
+#include "studies/analysis.hpp"
+#include "studies/running/context.hpp"
+#include "studies/settings.hpp"
+#include "studies/words.hpp"
+
+namespace gamut {
+namespace {
+
+using Stability = EquilibriaResult::Stability;
+
+std::vector<Field> fieldsOf(EquilibriaResult& e) {
+  constexpr std::string_view position = "/equilibria/number", coordinate = "/equilibria/coordinate";
+  return e.fieldsAnd(
+      {{"coordinates", &e.coordinates, unit::none, "their names, with commas"},
+       {"complete", &e.isComplete, unit::none, "whether these are all in the region, for every value in the intervals"},
+       {"open", &e.open, unit::one, "parts of the region in which there may be others", allowed::count},
+       {"coordinate", &e.coordinate, unit::one, "their numbers, from 1", {coordinate}},
+       {"number", &e.number, unit::one, "of the positions of rest, from 1", {position}},
+       {"lower",
+        &e.lower,
+        unit::none,
+        "proved bound of the coordinate at rest, for all values in the intervals, rad or m",
+        {position, coordinate}},
+       {"upper", &e.upper, unit::none, "upper bound", {position, coordinate}},
+       {"stability",
+        &e.stability,
+        unit::one,
+        "1 stable, -1 unstable, 0 not known; proved of forces that have a potential",
+        {position}}});
+}
+
+/// Of a position that is regular for all parameters.
+Stability stabilityOf(const Program& loads, const RootPart& part) {
+  Box middle;
+  for (const Interval& each : part.parameters) middle.emplace_back(midpoint(each));
+  const AllRoots there = allRoots(loads, part.root, middle);
+  const Box& root = there.families.size() == 1 ? there.families.front().root : part.root;
+  const int n = loads.states();
+  const std::vector<Interval> all = evaluate<Interval>(forwardDifferentiated(loads), root, middle, Interval(0.0));
+  std::vector<Interval> stiffness;
+  for (auto each = all.begin() + n; each != all.end(); ++each) stiffness.push_back(-*each);
+  const std::optional<int> negatives = negativeEigenvalues(stiffness, n);
+  return !negatives ? Stability::unknown : *negatives == 0 ? Stability::stable : Stability::unstable;
+}
+
+class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, EquilibriaResult> {
+ public:
+  std::string_view section() const override { return "equilibria"; }
+  std::string_view meaning() const override { return "all positions of rest in a region"; }
+  void describe(Settings& s) override {
+    NumberOf angle{"rad"}, displacement{"m"};
+    angle.least = displacement.least = 0;
+    angle.fault = displacement.fault = "is below 0";
+    angle.expected = displacement.expected = "how far from the initial value";
+    s.optional({"angles", "how far from their initial values angles are looked at, either way", ""}, angle, angles_);
+    s.optional({"displacements", "likewise of displacements, m", ""}, displacement, displacements_);
+  }
+  bool isAsked() const override { return angles_.has_value() || displacements_.has_value(); }
+  std::optional<Refusal> refusal(const Study& study) const override {
+    if (!isAsked()) return {};
+    const char* key = angles_ ? "angles" : "displacements";
+    if (study.analysis != Study::Analysis::equilibria)
+      return Refusal{key, "positions of rest are looked for where analysis = \"equilibria\"", "no such key"};
+    for (const Mechanism::JointCoordinate& joint : study.mechanism.coordinates())
+      if (!(joint.kind == Coordinate::angle ? angles_ : displacements_))
+        return Refusal{key, fmt::format("how far '{}' is looked at is not said", joint.name),
+                       joint.kind == Coordinate::angle ? "equilibria.angles" : "equilibria.displacements"};
+    return {};
+  }
+
+  void find(Run& run, const Results& /*before*/, EquilibriaResult& result) const {
+    const Machine& machine = run.machine;
+    const Mechanism& mechanism = run.study.mechanism;
+    const Program loads = recordRest(mechanism, machine.freeParameters);
+    Box region;
+    std::vector<std::string> names = mechanism.stateNames();
+    names.resize(mechanism.positions());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const bool turns = mechanism.coordinates().find(names[i])->kind == Coordinate::angle;
+      const double half = *(turns ? angles_ : displacements_);
+      region.push_back(Interval(midpoint(mechanism.rangeOf(mechanism.initialState()[i]))) + Interval(-half, half));
+      result.coordinate.push_back(static_cast<double>(i + 1));
+    }
+    result.coordinates = fmt::format("{}", fmt::join(names, ", "));
+    RootSearch search;
+    search.cancelled = run.watch.stop();
+    AllRoots found = allRoots(
+        loads, region, {machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end()}, search);
+    result.isComplete = found.isComplete();
+    result.open = static_cast<std::int64_t>(found.undecided.size() + found.border.size() + found.partial.size());
+    std::ranges::sort(found.families, {}, [](const RootBranch& family) {
+      std::vector<double> middle;
+      for (const Interval& each : family.root) middle.push_back(midpoint(each));
+      return middle;
+    });
+    result.lower = result.upper = Grid({found.families.size(), region.size()});
+    for (std::size_t k = 0; k < found.families.size(); ++k) {
+      result.number.push_back(static_cast<double>(k + 1));
+      for (std::size_t i = 0; i < region.size(); ++i) {
+        result.lower(k, i) = found.families[k].root[i].lower();
+        result.upper(k, i) = found.families[k].root[i].upper();
+      }
+      result.stability.push_back(static_cast<std::int64_t>(stabilityOf(loads, found.families[k].parts.front())));
+    }
+    if (!result.isComplete)
+      result.why = fmt::format("{} of the region {} not settled", countText(result.open, "part"),
+                               result.open == 1 ? "is" : "are");
+  }
+
+ private:
+  std::optional<double> angles_, displacements_;
+};
+
+}  // namespace
+
+std::vector<std::string> EquilibriaResult::told() const {
+  std::vector<std::string> lines{
+      isComplete ? fmt::format("{} in the region, and no other", countText(number.size(), "position"))
+                 : fmt::format("{} in the region, others may be there", countText(number.size(), "position"))};
+  for (std::size_t k = 0; k < number.size(); ++k) {
+    std::string line = stability[k] > 0 ? "stable:" : stability[k] < 0 ? "unstable:" : "of unknown stability:";
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < coordinate.size(); ++i) {
+      const std::size_t to = std::min(coordinates.find(", ", from), coordinates.size());
+      line += fmt::format("{} {} in {}", i > 0 ? "," : "", coordinates.substr(from, to - from),
+                          rangeText(lower(k, i), upper(k, i), 8));
+      from = to + 2;
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+void EquilibriaResult::describe(std::vector<Group>& groups) {
+  groups.push_back(groupOf("/equilibria", "positions of rest, proved", *this, fieldsOf));
+  groups.back().inJson = {{"lower", "*/0"}, {"upper", "*/1"}};
+  groups.back().makesSense = [this](std::size_t) {
+    for (std::size_t i = 0; i < lower.data.size(); ++i)
+      if (!(lower.data[i] <= upper.data[i])) return false;
+    return true;
+  };
+}
+
+std::unique_ptr<FurtherAnalysis> equilibriaAnalysis() { return std::make_unique<EquilibriaAnalysis>(); }
+
+}  // namespace gamut
