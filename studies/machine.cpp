@@ -248,9 +248,9 @@ Machine::Machine(Study of) : study(std::move(of)), freeParameters(freeParameters
   rest = restOf(study);
   motion.motion = recordedMotion(study, rest.get());
   if (rest) sampled = outputsAtRest(study, *rest, freeParameters);
-  cpu = processCpuSeconds() - start;
   takeNumbers(*this);
   closeFamilies(*this);
+  cpu = processCpuSeconds() - start;
   takeCourses(*this);
   takeLevels(*this);
 }
