@@ -279,7 +279,10 @@ Rest::Rest(const Mechanism& mechanism, const std::vector<std::string>& freeParam
   };
   using Equations = std::pair<std::vector<Recorded>, std::vector<Recorded>>;  // slopes at the centre, rows beside it
   takeFamily(
-      size_, 0, unit_, at.byPosition, [&](auto p) { return rooted(p); },
+      size_, 0, unit_, at.byPosition,
+      [&](auto p) {
+        return rooted({nominal_.begin(), nominal_.end()}, p);
+      },
       [&](const auto& c, const auto& v, auto p) {
         return Equations(linearAt<Recorded>(c, p).byPosition, linearAt<Recorded>(v, p).rows);
       });
@@ -298,7 +301,9 @@ Rest::Rest(const Mechanism& mechanism, const std::vector<std::string>& freeParam
   for (const Block& block : blocks_)
     takeFamily(
         static_cast<int>(block.nominal.size()), size_, block.unit, slopesOf<double>(block, at, block.nominal),
-        [&](auto p) { return rooted(block, linearAt<Recorded>(positionAt(p), p)); },
+        [&](auto p) {
+          return rooted(block, {block.nominal.begin(), block.nominal.end()}, linearAt<Recorded>(positionAt(p), p));
+        },
         [&](const auto& c, const auto& w, auto p) {
           const auto own = p.first(parameters_);
           const Linear<Recorded> of = linearAt<Recorded>(moved(positionAt(own), p.last(size_), unit_), own);
@@ -658,8 +663,7 @@ std::vector<S> Rest::slopesOf(const Block& block, const Linear<S>& at, std::span
   return slopes;
 }
 
-std::vector<Recorded> Rest::rooted(std::span<const Recorded> parameters) const {
-  std::vector<Recorded> v(nominal_.begin(), nominal_.end());
+std::vector<Recorded> Rest::rooted(std::vector<Recorded> v, std::span<const Recorded> parameters) const {
   for (int i = 0; dependsOnParameters_ && i < recordedSteps; ++i) {
     Linear<Recorded> at = linearAt<Recorded>(v, parameters);
     LinearSystem<Recorded>(MatrixKind::general, size_, std::move(at.byPosition)).solve(at.rows);
@@ -668,8 +672,7 @@ std::vector<Recorded> Rest::rooted(std::span<const Recorded> parameters) const {
   return v;
 }
 
-std::vector<Recorded> Rest::rooted(const Block& block, const Linear<Recorded>& at) const {
-  std::vector<Recorded> w(block.nominal.begin(), block.nominal.end());
+std::vector<Recorded> Rest::rooted(const Block& block, std::vector<Recorded> w, const Linear<Recorded>& at) const {
   for (int i = 0; dependsOnParameters_ && i < recordedSteps; ++i) {
     std::vector<Recorded> step = rowsOf<Recorded>(block, at, w);
     LinearSystem<Recorded>(MatrixKind::general, static_cast<int>(w.size()), slopesOf<Recorded>(block, at, w))
@@ -723,11 +726,12 @@ Rest::Found Rest::at(std::span<const Recorded> remainders, std::span<const Recor
 }
 
 Rest::Found Rest::at(std::span<const Recorded> parameters) const {
-  const std::vector<Recorded> v = rooted(parameters);
+  const std::vector<Recorded> v = rooted(positionAt(parameters), parameters);
   std::vector<std::vector<Recorded>> modes;
   if (!blocks_.empty()) {
     const Linear<Recorded> of = linearAt<Recorded>(v, parameters);
-    for (const Block& block : blocks_) modes.push_back(rooted(block, of));
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
+      modes.push_back(rooted(blocks_[k], centreAt(centres_[k + 1], blocks_[k].unit, parameters), of));
   }
   return foundAt(v, modes, parameters);
 }

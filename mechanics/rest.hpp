@@ -62,7 +62,7 @@ class Rest {
   };
   /// While recording: at these remainders and parameters.
   Found at(std::span<const Recorded> remainders, std::span<const Recorded> parameters) const;
-  /// Likewise, by Newton's steps, that leave open no more than their rounding: as samples go.
+  /// Likewise, by Newton's steps from the centres, that leave open no more than their rounding: as samples go.
   Found at(std::span<const Recorded> parameters) const;
 
   /// Of the nominal values, in doubles: s of all modes and of what does not oscillate.
@@ -100,8 +100,8 @@ class Rest {
   static std::vector<S> rowsOf(const Block& block, const Linear<S>& at, std::span<const S> w);
   template <class S>
   static std::vector<S> slopesOf(const Block& block, const Linear<S>& at, std::span<const S> w);
-  std::vector<Recorded> rooted(std::span<const Recorded> parameters) const;
-  std::vector<Recorded> rooted(const Block& block, const Linear<Recorded>& at) const;
+  std::vector<Recorded> rooted(std::vector<Recorded> v, std::span<const Recorded> parameters) const;
+  std::vector<Recorded> rooted(const Block& block, std::vector<Recorded> w, const Linear<Recorded>& at) const;
   std::vector<Recorded> positionAt(std::span<const Recorded> parameters) const;
   Found foundAt(const std::vector<Recorded>& v, const std::vector<std::vector<Recorded>>& modes,
                 std::span<const Recorded> parameters) const;
