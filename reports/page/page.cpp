@@ -37,6 +37,19 @@ std::string settledList(const Verdict& verdict) {
   return list + "</ul></details>";
 }
 
+/// What analyses beside the answers have found, that is not drawn.
+std::string foundLists(const Results& results) {
+  std::string html;
+  for (const Boxed<FurtherPart>& part : results.further) {
+    const std::vector<std::string> lines = part->told();
+    if (!part->present || lines.empty()) continue;
+    html += fmt::format("<h3>Also {}: {}</h3>\n<ul>\n", part->verb(), escapeHtml(part->title()));
+    for (const std::string& line : lines) html += "<li>" + escapeHtml(line) + "</li>\n";
+    html += "</ul>\n";
+  }
+  return html;
+}
+
 }  // namespace
 
 std::string titleOf(const Results& results) {
@@ -75,7 +88,7 @@ std::string askedSection(const Report& report) {
   return html;
 }
 
-std::string outputsSection(const Report& report) { return report.outputs.html; }
+std::string outputsSection(const Report& report) { return foundLists(report.results) + report.outputs.html; }
 
 std::string membershipSection(const Report& report) { return report.memberships; }
 

@@ -17,6 +17,7 @@
 #include "reports/report.hpp"
 #include "reports/sections/contribution.hpp"
 #include "scalars/interval.hpp"
+#include "studies/analyses/equilibria.hpp"
 #include "tests/reports/example_results.hpp"
 #include "tests/reports/page_text.hpp"
 #include "tests/studies/temporary_folder.hpp"
@@ -61,6 +62,23 @@ TEST(Report, LeadsWithWhatMoves) {
 }
 
 /// Of what nothing uncertain moves the page has no digits that rounding made.
+TEST(Report, ListsWhatIsFoundBesideTheAnswers) {
+  Results results = example::pendulum();
+  EXPECT_THAT(renderReport(results), Not(HasSubstr("Also proved")));
+  EquilibriaResult& found = results.of<EquilibriaResult>();
+  found.present = found.isComplete = true;
+  found.coordinates = "slide<1>.displacement, hinge.angle";
+  found.coordinate = {1, 2};
+  found.number = {1};
+  found.lower = Grid({1, 2}, {-0.5, 0.25});
+  found.upper = Grid({1, 2}, {-0.25, 0.25});
+  found.stability = {-1};
+  EXPECT_THAT(
+      renderReport(results),
+      AllOf(HasSubstr("<h3>Also proved: equilibria</h3>"), HasSubstr("<li>1 position in the region, and no other"),
+            HasSubstr("<li>unstable: slide&lt;1&gt;.displacement in [-0.5, -0.25], hinge.angle in [0.25, 0.25]")));
+}
+
 TEST(Report, HasNoDigitsOfRounding) {
   Results results = example::pendulum();
   const std::size_t last = results.time.size() - 1;
