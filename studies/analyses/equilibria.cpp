@@ -77,7 +77,12 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
     const char* key = angles_ ? "angles" : "displacements";
     if (study.analysis != Study::Analysis::equilibria)
       return Refusal{key, "positions of rest are looked for where analysis = \"equilibria\"", "no such key"};
-    for (const Mechanism::JointCoordinate& joint : study.mechanism.coordinates())
+    const Mechanism& mechanism = study.mechanism;
+    if (mechanism.isClosed() ||
+        mechanism.stateNames().size() > mechanism.positions() + static_cast<std::size_t>(mechanism.degreesOfFreedom()))
+      return Refusal{key, "all positions of rest are looked for of open chains whose elements have no states",
+                     "no such key: without it, one position of rest is found"};
+    for (const Mechanism::JointCoordinate& joint : mechanism.coordinates())
       if (!(joint.kind == Coordinate::angle ? angles_ : displacements_))
         return Refusal{key, fmt::format("how far '{}' is looked at is not said", joint.name),
                        joint.kind == Coordinate::angle ? "equilibria.angles" : "equilibria.displacements"};

@@ -341,6 +341,9 @@ TEST(Equilibria, SayWhatHasNone) {
   EXPECT_THAT(refusalOf(studyOf(held, asked) + "[equilibria]\ndisplacements = 1\n"),
               HasSubstr("how far 'A.angle' is looked at is not said"));
   EXPECT_THAT(refusalOf(studyOf(held, asked) + "[equilibria]\nangles = -1\n"), HasSubstr("is below 0"));
+  EXPECT_THAT(refusalOf(studyOf(held + element("state", "z", "initial = 1\nrate = \"-z/(1 s)\""), asked) +
+                        "[equilibria]\nangles = 1\n"),
+              HasSubstr("of open chains whose elements have no states"));
   EXPECT_THAT(refusalOf(studyOf(held + uncertain("A.angle", "± 0.1"), asked)),
               HasSubstr("'A.angle' is where rest is looked for first"));
   EXPECT_THAT(refusalOf(studyOf("gravity = [0, \"-9.81\", 0]\n" + hinge("A", "inertial", "K", "\"90 deg\"") + bob,
