@@ -28,9 +28,18 @@
 
 namespace gamut {
 
-/// What the coordinates q of a mechanism without loops and own states lack to be at rest, R(q, 0, 0), of q and the free
-/// parameters: zero where it rests. Throws UnfitPart as Rest does.
-Program recordRest(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
+/// Where a mechanism without own states rests, f(q) + G(q)ᵀ λ = 0 and g(q) = 0 of its coordinates and the multipliers
+/// of its loops, that may be any: with λ = Λ μ/μ0, μ0 > 0,
+///
+///   μ0 f + Λ Gᵀ μ = 0,   g = 0,   μ0² + |μ|² = 1.
+struct RestEquations {
+  Program roots;      ///< these, of q and, where there are loops, μ0 and μ, and of the free parameters
+  Program stiffness;  ///< of the same: K = −∂(f + Gᵀ λ)/∂q, bordered by G, symmetric and row by row
+  Box multipliers;    ///< which holds all (μ0, μ)
+};
+
+/// Throws UnfitPart as Rest does.
+RestEquations restEquations(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
 
 /// How many eigenvalues of a symmetric matrix, n by n and row by row, are below zero: with T near to its eigenvectors
 /// Tᵀ K T has as many (J. J. Sylvester), and those of its discs (S. Gershgorin) that lie below zero count them. Nothing

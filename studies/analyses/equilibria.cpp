@@ -13,7 +13,6 @@
 #include "analyses/roots/all_roots.hpp"
 #include "mechanics/rest.hpp"
 #include "scalars/evaluation/evaluate.hpp"
-#include "scalars/program/differentiation.hpp"
 #include "studies/analysis.hpp"
 #include "studies/running/context.hpp"
 #include "studies/settings.hpp"
@@ -45,18 +44,18 @@ std::vector<Field> fieldsOf(EquilibriaResult& e) {
         {position}}});
 }
 
-/// Of a position that is regular for all parameters.
-Stability stabilityOf(const Program& loads, const RootPart& part) {
+/// Of a position that is regular for all parameters. Bordered by the rows of loops K has a negative eigenvalue more for
+/// each of these (W. C. Chabrillac & J.-P. Crouzeix, Linear Algebra and its Applications 63, 1984).
+Stability stabilityOf(const RestEquations& equations, const RootPart& part) {
   Box middle;
   for (const Interval& each : part.parameters) middle.emplace_back(midpoint(each));
-  const AllRoots there = allRoots(loads, part.root, middle);
+  const AllRoots there = allRoots(equations.roots, part.root, middle);
   const Box& root = there.families.size() == 1 ? there.families.front().root : part.root;
-  const int n = loads.states();
-  const std::vector<Interval> all = evaluate<Interval>(forwardDifferentiated(loads), root, middle, Interval(0.0));
-  std::vector<Interval> stiffness;
-  for (auto each = all.begin() + n; each != all.end(); ++each) stiffness.push_back(-*each);
-  const std::optional<int> negatives = negativeEigenvalues(stiffness, n);
-  return !negatives ? Stability::unknown : *negatives == 0 ? Stability::stable : Stability::unstable;
+  const int loops = std::max(0, static_cast<int>(equations.multipliers.size()) - 1),
+            n = equations.roots.states() - (loops > 0 ? 1 : 0);
+  const std::optional<int> negatives =
+      negativeEigenvalues(evaluate<Interval>(equations.stiffness, root, middle, Interval(0.0)), n);
+  return !negatives ? Stability::unknown : *negatives == loops ? Stability::stable : Stability::unstable;
 }
 
 class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, EquilibriaResult> {
@@ -78,9 +77,8 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
     if (study.analysis != Study::Analysis::equilibria)
       return Refusal{key, "positions of rest are looked for where analysis = \"equilibria\"", "no such key"};
     const Mechanism& mechanism = study.mechanism;
-    if (mechanism.isClosed() ||
-        mechanism.stateNames().size() > mechanism.positions() + static_cast<std::size_t>(mechanism.degreesOfFreedom()))
-      return Refusal{key, "all positions of rest are looked for of open chains whose elements have no states",
+    if (mechanism.stateNames().size() > mechanism.positions() + static_cast<std::size_t>(mechanism.degreesOfFreedom()))
+      return Refusal{key, "all positions of rest are looked for where no element has states",
                      "no such key: without it, one position of rest is found"};
     for (const Mechanism::JointCoordinate& joint : mechanism.coordinates())
       if (!(joint.kind == Coordinate::angle ? angles_ : displacements_))
@@ -92,7 +90,7 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
   void find(Run& run, const Results& /*before*/, EquilibriaResult& result) const {
     const Machine& machine = run.machine;
     const Mechanism& mechanism = run.study.mechanism;
-    const Program loads = recordRest(mechanism, machine.freeParameters);
+    const RestEquations equations = restEquations(mechanism, machine.freeParameters);
     Box region;
     std::vector<std::string> names = mechanism.stateNames();
     names.resize(mechanism.positions());
@@ -103,10 +101,13 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
       result.coordinate.push_back(static_cast<double>(i + 1));
     }
     result.coordinates = fmt::format("{}", fmt::join(names, ", "));
+    const std::size_t coordinates = region.size();
+    region.insert(region.end(), equations.multipliers.begin(), equations.multipliers.end());
     RootSearch search;
     search.cancelled = run.watch.stop();
-    AllRoots found = allRoots(
-        loads, region, {machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end()}, search);
+    AllRoots found =
+        allRoots(equations.roots, region,
+                 {machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end()}, search);
     result.isComplete = found.isComplete();
     result.open = static_cast<std::int64_t>(found.undecided.size() + found.border.size() + found.partial.size());
     std::ranges::sort(found.families, {}, [](const RootBranch& family) {
@@ -114,14 +115,14 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
       for (const Interval& each : family.root) middle.push_back(midpoint(each));
       return middle;
     });
-    result.lower = result.upper = Grid({found.families.size(), region.size()});
+    result.lower = result.upper = Grid({found.families.size(), coordinates});
     for (std::size_t k = 0; k < found.families.size(); ++k) {
       result.number.push_back(static_cast<double>(k + 1));
-      for (std::size_t i = 0; i < region.size(); ++i) {
+      for (std::size_t i = 0; i < coordinates; ++i) {
         result.lower(k, i) = found.families[k].root[i].lower();
         result.upper(k, i) = found.families[k].root[i].upper();
       }
-      result.stability.push_back(static_cast<std::int64_t>(stabilityOf(loads, found.families[k].parts.front())));
+      result.stability.push_back(static_cast<std::int64_t>(stabilityOf(equations, found.families[k].parts.front())));
     }
     if (!result.isComplete)
       result.why = fmt::format("{} of the region {} not settled", countText(result.open, "part"),

@@ -189,47 +189,57 @@ TEST(Equilibria, KeepsApartWhatComesTogether) {
   }
 }
 
-/// Of a linkage that hangs: ω² = −∂θ̈/∂θ.
-TEST(Equilibria, OfALoopAreThoseOfItsMotion) {
-  using testing::fourBarByHand;
+/// The linkage of tests/mechanics/four_bar.hpp under its weight, two of its lengths uncertain.
+std::string linkage() {
   const auto link = [](const std::string& name, const std::string& from, const std::string& to,
                        const std::string& length) {
     return element("link", name, "from = \"" + from + "\"\nto = \"" + to + "\"\nvector = [\"" + length + "\", 0, 0]");
   };
-  const std::string loop =
-      "gravity = [0, \"-9.81\", 0]\nparameters = { a = \"0.3 m\", b = \"0.8 m\", c = \"0.6 m\", d = \"0.9 m\" }\n" +
-      hinge("A", "inertial", "K1", "4") +
-      element("mass", "crank",
-              "at = \"K1\"\nmass = 1\ncentre = [\"0.15\", 0, 0]\ninertia = [\"0.0075\", \"0.0075\", \"0.0075\"]") +
-      link("ab", "K1", "PB", "a") + hinge("B", "PB", "K2", "-2.8") +
-      element("mass", "coupler",
-              "at = \"K2\"\nmass = 2\ncentre = [\"0.4\", \"0.1\", 0]\ninertia = [\"0.1\", \"0.1\", \"0.1\"]") +
-      link("bc", "K2", "C1", "b") + link("ground", "inertial", "PD", "d") + hinge("D", "PD", "K3", "1.9") +
-      element("mass", "rocker",
-              "at = \"K3\"\nmass = 1.5\ncentre = [\"0.3\", 0, 0]\ninertia = [\"0.05\", \"0.05\", \"0.05\"]") +
-      link("dc", "K3", "C2", "c") + element("closure", "C", "as = \"pin\"\nfrom = \"C2\"\nto = \"C1\"");
-  const Machine machine =
-      machineOf(studyOf(loop + uncertain("a", "± 1 %") + uncertain("d", "± 1 %"), output("A.angle") + frequencies(1)));
+  return "gravity = [0, \"-9.81\", 0]\nparameters = { a = \"0.3 m\", b = \"0.8 m\", c = \"0.6 m\", d = \"0.9 m\" }\n" +
+         hinge("A", "inertial", "K1", "4") +
+         element("mass", "crank",
+                 "at = \"K1\"\nmass = 1\ncentre = [\"0.15\", 0, 0]\ninertia = [\"0.0075\", \"0.0075\", \"0.0075\"]") +
+         link("ab", "K1", "PB", "a") + hinge("B", "PB", "K2", "-2.8") +
+         element("mass", "coupler",
+                 "at = \"K2\"\nmass = 2\ncentre = [\"0.4\", \"0.1\", 0]\ninertia = [\"0.1\", \"0.1\", \"0.1\"]") +
+         link("bc", "K2", "C1", "b") + link("ground", "inertial", "PD", "d") + hinge("D", "PD", "K3", "1.9") +
+         element("mass", "rocker",
+                 "at = \"K3\"\nmass = 1.5\ncentre = [\"0.3\", 0, 0]\ninertia = [\"0.05\", \"0.05\", \"0.05\"]") +
+         link("dc", "K3", "C2", "c") + element("closure", "C", "as = \"pin\"\nfrom = \"C2\"\nto = \"C1\"") +
+         uncertain("a", "± 1 %") + uncertain("d", "± 1 %");
+}
+
+/// Of the crank, at rest at this angle, with the closing point to the left.
+Precise accelerationOf(const Precise& angle, const Vector& p) {
+  return testing::fourBarByHand<Precise>(angle, Precise(0), {p[0], Precise("0.8"), Precise("0.6"), p[1]},
+                                         [](const char* decimal) { return Precise(decimal); })
+      .acceleration;
+}
+
+/// Where it is zero about an interval.
+Precise restAbout(const Interval& angles, const Vector& p) {
+  Precise low = Precise(angles.lower()) - Precise("0.01"), high = Precise(angles.upper()) + Precise("0.01");
+  const bool falls = accelerationOf(low, p) > 0;
+  EXPECT_EQ(accelerationOf(high, p) > 0, !falls);
+  for (int i = 0; i < 110; ++i) {
+    const Precise middle = (low + high) / 2;
+    ((accelerationOf(middle, p) > 0) == falls ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Of a linkage that hangs: ω² = −∂θ̈/∂θ.
+TEST(Equilibria, OfALoopAreThoseOfItsMotion) {
+  const Machine machine = machineOf(studyOf(linkage(), output("A.angle") + frequencies(1)));
   const Results results = run(machine, {});
   EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   Points points;
   for (int number = 0; number < 20; ++number) {
     const Vector p = point(points, machine, number);
-    const auto acceleration = [&](const Precise& angle) {
-      return fourBarByHand<Precise>(angle, Precise(0), {p[0], Precise("0.8"), Precise("0.6"), p[1]},
-                                    [](const char* decimal) { return Precise(decimal); })
-          .acceleration;
-    };
-    Precise low = found(results, 0).lower() - 0.1, high = found(results, 0).upper() + 0.1;
-    ASSERT_GT(acceleration(low), 0);
-    ASSERT_LT(acceleration(high), 0);
-    for (int i = 0; i < 110; ++i) {
-      const Precise middle = (low + high) / 2;
-      (acceleration(middle) > 0 ? low : high) = middle;
-    }
+    const Precise low = restAbout(found(results, 0), p);
     EXPECT_THAT(found(results, 0), testing::Encloses(low));
     const Precise step("1e-9");  // an error of step² and one of 1e-34/step
-    const Precise square = (acceleration(low - step) - acceleration(low + step)) / (2 * step);
+    const Precise square = (accelerationOf(low - step, p) - accelerationOf(low + step, p)) / (2 * step);
     EXPECT_THAT(found(results, 1), testing::Encloses(Precise(sqrt(square) / turn)));
   }
 }
@@ -304,6 +314,31 @@ TEST(Equilibria, OfTogglesAreAllCombinations) {
   }
 }
 
+/// Two of either way to assemble it, of which one hangs.
+TEST(Equilibria, OfALoopAreFoundHoweverItIsAssembled) {
+  const Machine machine = machineOf(studyOf(linkage(), output("A.angle")) + "[equilibria]\nangles = \"180 deg\"\n");
+  const Results results = run(machine, {});
+  const EquilibriaResult& all = results.of<EquilibriaResult>();
+  ASSERT_TRUE(all.isComplete) << all.why;
+  ASSERT_EQ(all.number.size(), 4);
+  EXPECT_EQ(std::ranges::count(all.stability, 1), 2);
+  EXPECT_EQ(std::ranges::count(all.stability, -1), 2);
+  Points points;
+  int left = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Interval angles = positionOf(all, k);
+    const Vector middle{Precise("0.3"), Precise("0.9")};
+    const Precise below = accelerationOf(Precise(angles.lower()) - Precise("0.01"), middle),
+                  above = accelerationOf(Precise(angles.upper()) + Precise("0.01"), middle);
+    if (below * above > 0) continue;  // of the other way
+    ++left;
+    EXPECT_EQ(all.stability[k], below > 0 ? 1 : -1);
+    for (int number = 0; number < 20; ++number)
+      EXPECT_THAT(angles, testing::Encloses(restAbout(angles, point(points, machine, number))));
+  }
+  EXPECT_EQ(left, 2);
+}
+
 /// The region ends where the lever rests for some values.
 TEST(Equilibria, AreNotToldAsAllWhereOneMayLeaveTheRegion) {
   const Results results = run(machineOf(toggles(1, "± 2 %", "0.1 rad")), {});
@@ -343,7 +378,7 @@ TEST(Equilibria, SayWhatHasNone) {
   EXPECT_THAT(refusalOf(studyOf(held, asked) + "[equilibria]\nangles = -1\n"), HasSubstr("is below 0"));
   EXPECT_THAT(refusalOf(studyOf(held + element("state", "z", "initial = 1\nrate = \"-z/(1 s)\""), asked) +
                         "[equilibria]\nangles = 1\n"),
-              HasSubstr("of open chains whose elements have no states"));
+              HasSubstr("looked for where no element has states"));
   EXPECT_THAT(refusalOf(studyOf(held + uncertain("A.angle", "± 0.1"), asked)),
               HasSubstr("'A.angle' is where rest is looked for first"));
   EXPECT_THAT(refusalOf(studyOf("gravity = [0, \"-9.81\", 0]\n" + hinge("A", "inertial", "K", "\"90 deg\"") + bob,
