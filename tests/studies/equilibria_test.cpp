@@ -15,7 +15,7 @@
 #include "tests/analyses/reference.hpp"
 #include "tests/mechanics/four_bar.hpp"
 
-namespace gamut {
+namespace gamut::equilibria {
 namespace {
 
 using ::testing::HasSubstr;
@@ -387,4 +387,4 @@ TEST(Equilibria, SayWhatHasNone) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::equilibria

@@ -13,8 +13,8 @@
 namespace gamut::testing {
 namespace {
 
-const auto keep = [](const std::vector<Side>&, const Vector&, Vector&) {};
-const auto all = Interval(-1.0, 1.0);
+const auto keepAll = [](const std::vector<Side>&, const Vector&, Vector&) {};
+const auto anySign = Interval(-1.0, 1.0);
 
 /// ẋ of two or three states and so many parameters, once more with signs in place of absolute values.
 template <class Of>
@@ -47,7 +47,7 @@ const std::vector<JumpingMachine>& machines() {
                 dx[1] = p[0] * p[1] * slip;
               }),
        {0.0, 2.0, 1.0, 1.0},
-       {0.0, all, all, all},
+       {0.0, anySign, anySign, anySign},
        3,
        [](const auto& sides, const Vector& p, Vector& x) {
          if (sides[0] == Side::held) x[0] = p[0] * x[1];
@@ -61,7 +61,7 @@ const std::vector<JumpingMachine>& machines() {
                 dx[1] = -p[1] * sign(x[0] + p[0] * x[1]);
               }),
        {1.0, 0.0, 0.375, 2.0},
-       {all, 0.0, all, all},
+       {anySign, 0.0, anySign, anySign},
        2,
        [](const auto& sides, const Vector& p, Vector& x) {
          if (sides[0] == Side::held) x[0] = -p[0] * x[1];
@@ -76,9 +76,9 @@ const std::vector<JumpingMachine>& machines() {
                 dx[2] = where(p[0] * p[0] - x[0] * x[0] - x[1] * x[1], p[1], Recorded(0.0));
               }),
        {-2.0, 0.125, 0.25, 1.0, -1.0},
-       {0.0, all, all, all, all},
+       {0.0, anySign, anySign, anySign, anySign},
        4,
-       keep,
+       keepAll,
        1.005},
       // A course that time and a quantity tell.
       {"Course",
@@ -88,12 +88,19 @@ const std::vector<JumpingMachine>& machines() {
                 dx[1] = -p[1] * sign(x[0] + 0.5 - p[0] * sin(3.0 * t));
               }),
        {0.0, 1.0, 0.5, 2.0},
-       {0.0, all, all, all},
+       {0.0, anySign, anySign, anySign},
        2,
-       keep,
+       keepAll,
        1.005},
-      {"Wall", wall.first, {0.0, 1.0, 0.5, 64.0}, {0.0, all, all, all}, 1, keep, 1.005, wall.second},
-      {"Gear", gear.first, {1.0, 0.0, 0.0, 2.0, 1.0}, {all, 0.0, 0.0, all, all}, 3, keep, 1.005, gear.second}};
+      {"Wall", wall.first, {0.0, 1.0, 0.5, 64.0}, {0.0, anySign, anySign, anySign}, 1, keepAll, 1.005, wall.second},
+      {"Gear",
+       gear.first,
+       {1.0, 0.0, 0.0, 2.0, 1.0},
+       {anySign, 0.0, 0.0, anySign, anySign},
+       3,
+       keepAll,
+       1.005,
+       gear.second}};
   return machines;
 }
 
@@ -114,7 +121,7 @@ TEST(FlowSurfacesOfTime, AreHeldAsOthersAre) {
   for (const Program& each : {f, late}) {
     const Tube tube = Flow(each).enclose({0.5, Interval(1.5, 1.75)}, 3, {1.0, 2.5});
     ASSERT_EQ(tube.why(), "");
-    SlidingReference reference(each, keep);
+    SlidingReference reference(each, keepAll);
     for (const double p : {1.5, 1.625, 1.75}) {
       const std::vector<Vector> motion = reference({Precise(0.5), Precise(p)}, {1.0, 2.5, 3.0});
       for (std::size_t row = 0; row < motion.size(); ++row)
