@@ -100,7 +100,7 @@ class Prover {
       if (widest < 0 || loosest->largest() <= enough_) return;
       const std::array<Box, 2> halves = halvesOf(loosest->parameters, widest);
       std::optional<Part> lower = prove(halves[0]), upper = prove(halves[1]);
-      if (!lower || !upper || std::max(lower->largest(), upper->largest()) > 0.5 * loosest->largest()) return;
+      if (!lower || !upper) return;
       *loosest = std::move(*lower);
       parts_.push_back(std::move(*upper));
     }
@@ -188,7 +188,8 @@ class Prover {
         radii_ = r;
         Box around0;  // once more, of the image
         for (const Interval& each : image) around0.push_back(hull(each, Interval(0.0)));
-        return Part{part, imageOf(at0, slopes, around0), delta};
+        const bool isEnough = largestOf(image) <= enough_;
+        return Part{part, imageOf(at0, isEnough ? slopes : slopesOn(around0, part, *degree), around0), delta};
       }
       if (degree + 1 != degrees.end()) {
         ++degree;

@@ -60,7 +60,7 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   const Json json = Json::parse(text);
   EXPECT_THAT(keysOf(json),
               ElementsAre("advice", "alpha_cuts", "cost", "dependence", "derivatives", "distribution", "enclosure",
-                          "envelope", "excursion", "files", "horizon", "integrated", "limits", "outputs",
+                          "envelope", "equilibria", "excursion", "files", "horizon", "integrated", "limits", "outputs",
                           "overestimation", "reached", "requirements", "samples", "sensitivity", "shortfall",
                           "statistics", "stopped", "tightness", "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
