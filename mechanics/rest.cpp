@@ -348,10 +348,7 @@ Rest::Rest(const Mechanism& mechanism, const std::vector<std::string>& freeParam
     for (int i = 0; i < coordinates_; ++i)
       for (int j = 0; j < coordinates_; ++j) isDamped_ = isDamped_ || !isKnownZero(of.byRate[i * size_ + j]);
   });
-  isDamped_ = isDamped_ || ownStates_ > 0 ||
-              !Reduced(matrixOf(at.byPosition, size_), matrixOf(at.byRate, size_), matrixOf(at.byAcceleration, size_),
-                       coordinates_, size_ - coordinates_ - ownStates_)
-                   .isSymmetric();
+  isDamped_ = isDamped_ || ownStates_ > 0 || !hasPotential(parameters);
   if (modes.empty()) return;
   eigenvalues_ = eigenvaluesOf(at);
   takeModes(parameters, modes);
@@ -366,6 +363,26 @@ Rest::Rest(const Mechanism& mechanism, const std::vector<std::string>& freeParam
           const Linear<Recorded> of = linearAt<Recorded>(moved(positionAt(own), p.last(size_), unit_), own);
           return Equations(slopesOf<Recorded>(block, of, c), rowsOf<Recorded>(block, of, w));
         });
+}
+
+/// At many values of the parameters, which no force of another kind passes unless it is zero at all of them: pairs of
+/// frequencies rely on it.
+bool Rest::hasPotential(const Box& parameters) const {
+  constexpr int points = 16;
+  for (int k = 0; k < points; ++k) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const double turns = std::sqrt(static_cast<double>(i) + 2.0) * k + 0.5;  // the middle first
+      values.push_back(parameters[i].lower() +
+                       (turns - std::floor(turns)) * (parameters[i].upper() - parameters[i].lower()));
+    }
+    const Linear<double> at = linearAt<double>(nominal_, values);
+    if (!Reduced(matrixOf(at.byPosition, size_), matrixOf(at.byRate, size_), matrixOf(at.byAcceleration, size_),
+                 coordinates_, size_ - coordinates_ - ownStates_)
+             .isSymmetric())
+      return false;
+  }
+  return true;
 }
 
 int Rest::remainders() const {

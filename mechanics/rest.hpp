@@ -97,6 +97,7 @@ class Rest {
   Linear<S> linearAt(const std::vector<S>& v, std::span<const S> parameters) const;
   std::vector<double> settled(std::vector<double> v, std::span<const double> parameters) const;
   std::vector<double> rooted(std::vector<double> v, std::span<const double> parameters) const;
+  bool hasPotential(const Box& parameters) const;
   void refuseLoose(const Linear<double>& at) const;
   std::vector<std::complex<double>> eigenvaluesOf(const Linear<double>& at) const;
   void takeModes(const Box& parameters, const std::set<int>& modes);

@@ -40,7 +40,8 @@ std::vector<Field> fieldsOf(EquilibriaResult& e) {
        {"stability",
         &e.stability,
         unit::one,
-        "1 stable, -1 unstable, 0 not known; proved of forces that have a potential",
+        "1 stable, -1 unstable, 0 not known; by the stiffness, of forces that have a potential and of resistances that "
+        "take energy alone",
         {position}}});
 }
 
@@ -96,8 +97,10 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
     names.resize(mechanism.positions());
     for (std::size_t i = 0; i < names.size(); ++i) {
       const bool turns = mechanism.coordinates().find(names[i])->kind == Coordinate::angle;
-      const double half = *(turns ? angles_ : displacements_);
-      region.push_back(Interval(midpoint(mechanism.rangeOf(mechanism.initialState()[i]))) + Interval(-half, half));
+      // Outward by more than reading rounds, so that a whole turn has no gap.
+      const Interval start = mechanism.rangeOf(mechanism.initialState()[i]),
+                     half = Interval(*(turns ? angles_ : displacements_)) * Interval(1 + 0x1p-50);
+      region.push_back(hull(start - half, start + half));
       result.coordinate.push_back(static_cast<double>(i + 1));
     }
     result.coordinates = fmt::format("{}", fmt::join(names, ", "));

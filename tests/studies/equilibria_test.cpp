@@ -348,6 +348,35 @@ TEST(Equilibria, AreNotToldAsAllWhereOneMayLeaveTheRegion) {
   EXPECT_THAT(found.told().front(), HasSubstr("others may be there"));
 }
 
+std::string refusalOf(const std::string& text);
+
+/// Opposite to where it begins, at either end of the turn.
+TEST(Equilibria, AreNotLostWhereAWholeTurnEnds) {
+  for (const char* initial : {"\"-90 deg\"", "\"270 deg\"", "\"-1/2 pi\""}) {
+    const std::string bob =
+        hinge("A", "inertial", "K", initial) + element("mass", "bob", "at = \"K\"\nmass = 2\ncentre = [1, 0, 0]");
+    const Results results = run(machineOf(studyOf("gravity = [0, \"-9.81\", 0]\n" + bob, output("A.angle")) +
+                                          "[equilibria]\nangles = \"180 deg\"\n"),
+                                {});
+    const EquilibriaResult& all = results.of<EquilibriaResult>();
+    EXPECT_TRUE(all.isComplete) << initial << all.why;
+    EXPECT_EQ(all.stability, (std::vector<std::int64_t>{-1, 1, -1})) << initial;
+  }
+}
+
+/// K = [[100, f], [-f, 100]], f about zero: s² = −100 ± i f, so |s|² = √(10⁴ + f²), of either.
+TEST(Equilibria, OfAFollowerForceThatIsZeroInTheMiddleAreNoPairOfAPotential) {
+  const std::string text = studyOf(
+      "parameters = { f = 0 }\n" + element("prismatic", "X", "from = \"inertial\"\nto = \"A\"\naxis = \"x\"") +
+          element("prismatic", "Y", "from = \"A\"\nto = \"B\"\naxis = \"y\"") +
+          element("mass", "b", "at = \"B\"\nmass = 1") +
+          element("joint-force", "FX", "joint = \"X\"\nforce = \"(-100*X.displacement - f*Y.displacement)*(1 N/m)\"") +
+          element("joint-force", "FY", "joint = \"Y\"\nforce = \"(-100*Y.displacement + f*X.displacement)*(1 N/m)\"") +
+          "[[uncertain]]\nquantity = \"f\"\ninterval = [-5, 5]\n",
+      frequencies(2));
+  EXPECT_THAT(refusalOf(text), HasSubstr("are not told apart"));
+}
+
 std::string refusalOf(const std::string& text) {
   try {
     run(machineOf(text), {});
