@@ -20,7 +20,8 @@ std::vector<std::string> keys(const Map& map) {
   return names;
 }
 
-bool dependOnParameters(const std::vector<Recorded>& values) {
+template <class Is>
+bool dependOn(const std::vector<Recorded>& values, Is is) {
   const Recorder& recorder = *Recorder::current();
   std::vector<char> isSeen(static_cast<std::size_t>(recorder.size()), 0);
   std::vector<int> open;
@@ -31,7 +32,7 @@ bool dependOnParameters(const std::vector<Recorded>& values) {
   while (!open.empty()) {
     const int node = open.back();
     open.pop_back();
-    if (recorder.table().nodes[node].op == Op::parameter) return true;
+    if (is(recorder.table().nodes[node])) return true;
     detail::forEachOperand(recorder.table(), node, see);
   }
   return false;
@@ -173,6 +174,7 @@ std::vector<S> Assembly<S>::closingMap(std::span<const S> delta) {
 template <class S>
 void Assembly<S>::closeLoops(const Mechanism& mechanism) {
   if (dependents_.empty()) return;
+  findTriangles(mechanism);
   const auto openingAt = [&](const std::vector<S>& positions) {
     for (std::size_t i = 0; i < dependents_.size(); ++i) initialState_[dependents_[i]] = positions[i];
     placeAtStart();
@@ -215,16 +217,71 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism) {
     }
     by = openingAt(at);
     if (!(size(by) < closed)) refuseOpen(mechanism, size(by) == size(by));
+    for (Loop& loop : loops_)
+      if (loop.triangle && !loop.triangle->given().empty()) loop.side = loop.triangle->side();
   } else {
     const Assembly<double> nominal(mechanism);
     for (std::size_t i = 0; i < at.size(); ++i) at[i] = S(nominal.initialState()[dependents_[i]]);
+    if constexpr (std::is_same_v<S, Recorded>)
+      for (std::size_t i = 0; i < loops_.size(); ++i) loops_[i].side = nominal.loops_[i].side;
     int steps = 4;
     if constexpr (std::is_same_v<S, Recorded>) {
       openingAt(at);
-      if (!dependOnParameters(system_->residuals())) steps = 0;
+      if (!dependOn(system_->residuals(), [](const Node& node) { return node.op == Op::parameter; })) steps = 0;
     }
     for (int i = 0; i < steps; ++i) at = moved(at, openingAt(at), 1);
     for (std::size_t i = 0; i < at.size(); ++i) initialState_[dependents_[i]] = origin_[dependents_[i]] = at[i];
+  }
+}
+
+/// Loops that close as triangles do.
+template <class S>
+void Assembly<S>::findTriangles(const Mechanism& mechanism) {
+  if (chain_.constraints().size() != mechanism.loops().size()) return;  // others close it besides
+  std::size_t first = 0, number = 0;
+  for (const Mechanism::Closed& loop : mechanism.loops()) {
+    std::vector<Variable<S>*> by;
+    for (const std::string& name : loop.by) by.push_back(parts_.variables_.at(name));
+    loops_.push_back({nullptr, first, by.size()});
+    if constexpr (std::is_same_v<S, double> || std::is_same_v<S, Recorded>)
+      loops_.back().triangle = Triangle<S>::of(*chain_.constraints()[number], by, chain_);
+    first += by.size();
+    ++number;
+  }
+}
+
+/// Puts joints of triangles to where they close, one after the other: those first that no open loop has a part in.
+template <class S>
+void Assembly<S>::placeTriangles() {
+  if constexpr (std::is_same_v<S, Recorded>) {
+    for (bool isDone = false; !isDone;) {
+      isDone = true;
+      system_->doMotion(MotionLevel::position);
+      std::set<int> open;  // states
+      for (const Loop& loop : loops_)
+        for (std::size_t i = 0; i < loop.rows && !loop.isPlaced; ++i)
+          open.insert(static_cast<int>(dependents_[loop.first + i]));
+      for (Loop& loop : loops_) {
+        constexpr double least = 1e-6;
+        if (loop.isPlaced || !loop.triangle || !(std::abs(loop.side) > least)) continue;
+        const std::vector<S> given = loop.triangle->given();
+        if (given.empty() ||
+            dependOn(given, [&](const Node& node) { return node.op == Op::state && open.contains(node.a); }))
+          continue;
+        loop.triangle->place(loop.side > 0 ? 1 : -1);
+        loop.isPlaced = true;
+        isDone = false;
+        break;
+      }
+    }
+  }
+}
+
+template <class S>
+void Assembly<S>::releaseTriangles() {
+  for (Loop& loop : loops_) {
+    if (loop.isPlaced) loop.triangle->release();
+    loop.isPlaced = false;
   }
 }
 
@@ -381,6 +438,8 @@ void Assembly<S>::setState(std::span<const S> x, const S& time) {
   parts_.time_ = time;
   for (std::size_t i = 0; i < x.size(); ++i) *states_[i] = x[i];
   for (auto& [name, speed] : parts_.speeds_) speed->acceleration = S(0.0);
+  releaseTriangles();
+  if (placesTriangles_) placeTriangles();
   system_->close();
   system_->doMotion();
   opening_.clear();
@@ -390,6 +449,7 @@ void Assembly<S>::setState(std::span<const S> x, const S& time) {
 template <class S>
 void Assembly<S>::setMotion(std::span<const S> x, const S& time) {
   const std::vector<S> states = withOrigin(x);
+  placesTriangles_ = true;
   setUnfolded(states, unfolding_->signsAt(states), time);
 }
 
@@ -411,6 +471,7 @@ template <class S>
 std::vector<S> Assembly<S>::motionRates(std::span<const S> x, const S& time,
                                         Formulation formulation) requires std::same_as<S, Recorded> {
   const std::vector<S> states = withOrigin(x);
+  placesTriangles_ = formulation != Formulation::articulated;
   return ofBothSides(unfolding_->signsAt(states), [&](const std::vector<S>& signs) {
     setUnfolded(states, signs, time, true);
     std::vector<S> found = rates(formulation);
@@ -423,6 +484,7 @@ template <class S>
 std::vector<S> Assembly<S>::ofMotion(std::span<const S> x, const S& time,
                                      const std::function<std::vector<S>()>& what) requires std::same_as<S, Recorded> {
   const std::vector<S> states = withOrigin(x);
+  placesTriangles_ = true;
   return ofBothSides(unfolding_->signsAt(states), [&](const std::vector<S>& signs) {
     setUnfolded(states, signs, time);
     return what();
@@ -434,7 +496,8 @@ std::vector<S> Assembly<S>::accelerations(Formulation formulation) {
   known_ = Known::solving;
   try {
     std::vector<S> result = system_->accelerations(formulation);
-    known_ = Known::accelerations;
+    // Without multipliers, forces are not those of the whole machine yet.
+    known_ = system_->isConstrained() && formulation != Formulation::bordered ? Known::state : Known::accelerations;
     return result;
   } catch (...) {
     known_ = Known::state;
@@ -447,7 +510,7 @@ void Assembly<S>::solve() {
   if (known_ == Known::forces) return;
   if (known_ == Known::solving)
     throw std::logic_error("a load asks for what follows from all loads: an acceleration or a reaction");
-  if (known_ == Known::state) accelerations();
+  if (known_ == Known::state) accelerations(Formulation::bordered);
   known_ = Known::solving;
   system_->complete();
   known_ = Known::forces;
@@ -456,12 +519,22 @@ void Assembly<S>::solve() {
 template <class S>
 std::vector<S> Assembly<S>::rates(Formulation formulation) {
   std::vector<S> result;
-  if (!dependents_.empty()) opening_ = system_->opening();
+  if (!dependents_.empty()) opening_ = opening();
   for (const Signal<S>& rate : positionRates_) result.push_back(rate());
   const std::vector<S> found = accelerations(formulation);
   result.insert(result.end(), found.begin(), found.end() - static_cast<std::ptrdiff_t>(dependents_.size()));
   for (const Signal<S>& rate : ownRates_) result.push_back(rate());
   return result;
+}
+
+/// By what dependent positions are off, to first order; rows of loops that are placed in closed form are closed.
+template <class S>
+std::vector<S> Assembly<S>::opening() {
+  std::vector<S> rows = system_->residuals();
+  for (const Loop& loop : loops_)
+    for (std::size_t i = 0; i < loop.rows && loop.isPlaced; ++i) rows[loop.first + i] = S(0.0);
+  system_->dependentRows().solve(rows);
+  return rows;
 }
 
 template <class S>

@@ -8,6 +8,7 @@
 
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -18,6 +19,7 @@
 #include "mechanics/equations/unfolding.hpp"
 #include "mechanics/measurements.hpp"
 #include "mechanics/spin.hpp"
+#include "mechanics/triangle.hpp"
 
 namespace gamut {
 
@@ -82,6 +84,9 @@ class Assembly {
   const Frame<S>& frame(const std::string& name) const;
 
  private:
+  template <class Other>
+  friend class Assembly;
+
   void takeNumbers(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                    std::span<const S> values);
   void makeStates(const Mechanism& mechanism);
@@ -89,6 +94,10 @@ class Assembly {
   void setUnfolded(std::vector<S> states, const std::vector<S>& signs, const S& time, bool isSmooth = false);
   void unfoldEnds(const Mechanism& mechanism);
   void closeLoops(const Mechanism& mechanism);
+  void findTriangles(const Mechanism& mechanism);
+  void placeTriangles();
+  void releaseTriangles();
+  std::vector<S> opening();
   void placeAtStart();
   void measureFrames();
   void measureReactions(const Mechanism& mechanism);
@@ -111,8 +120,16 @@ class Assembly {
   std::vector<S*> states_;                 // in the order of Mechanism::stateNames()
   std::vector<Variable<S>*> coordinates_;  // positions of them
   std::vector<Signal<S>> positionRates_, ownRates_;
-  std::vector<std::size_t> dependents_;   // states: the positions of coordinates that close loops, in their order
-  std::vector<S> opening_;                // of the present state
+  std::vector<std::size_t> dependents_;  // states: the positions of coordinates that close loops, in their order
+  std::vector<S> opening_;               // of the present state
+  struct Loop {
+    std::unique_ptr<Triangle<S>> triangle;  // null where it is none
+    std::size_t first, rows;                // of dependents_
+    double side = 0;                        // of the nominal machine
+    bool isPlaced = false;
+  };
+  std::vector<Loop> loops_;
+  bool placesTriangles_ = false;          // by the next states
   std::vector<S> initialState_, origin_;  // the second: what differences of states are from; else zero
   Known known_ = Known::state;
 };

@@ -9,12 +9,14 @@
 // Source: E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, 1989, section 9.4.
 #pragma once
 
+#include <array>
 #include <utility>
 #include <vector>
 
 #include "mechanics/axis.hpp"
 #include "mechanics/element.hpp"
 #include "mechanics/rotation.hpp"
+#include "mechanics/seen.hpp"
 
 namespace gamut {
 
@@ -25,11 +27,14 @@ struct CarriedPoint {
   Vector3<S> place;
 
   MovingPoint<S> inInertial() const { return frame->inInertial({place, zeroVector<S>()}); }
-  /// At MotionLevel::acceleration, without what velocities add.
-  Vector3<S> acceleration(MotionLevel level) const {
-    Vector3<S> a = frame->a + frame->omegaDot.cross(place);
-    if (level == MotionLevel::all) a = frame->a + offsetAcceleration(frame->omega, frame->omegaDot) * place;
-    return frame->R * a;
+  /// Beyond the origin of a frame that it hangs on; at MotionLevel::acceleration, without what velocities add.
+  Vector3<S> acceleration(const Frame<S>* base, MotionLevel level) const {
+    const Frame<S>* at = frame;
+    Vector3<S> sum =
+        at->R * (level == MotionLevel::all ? Vector3<S>(offsetAcceleration(at->omega, at->omegaDot) * place)
+                                           : Vector3<S>(at->omegaDot.cross(place)));
+    for (; at != base; at = &at->origin->from()) sum += at->origin->from().R * at->origin->accelerationBeyond(level);
+    return sum;
   }
   /// A force [N, inertial axes] that acts there, or `beyond` it [m, inertial axes].
   void push(const Vector3<S>& force, const Vector3<S>& beyond = zeroVector<S>()) const {
@@ -38,6 +43,14 @@ struct CarriedPoint {
     frame->tau += place.cross(own) + frame->R.transpose() * Vector3<S>(beyond.cross(force));
   }
 };
+
+/// By how much the second of two points is accelerated beyond the first, in inertial axes: with nothing of what both
+/// hang on.
+template <class S>
+Vector3<S> accelerationBetween(const CarriedPoint<S>& from, const CarriedPoint<S>& to, MotionLevel level) {
+  const Frame<S>* base = commonBase<S>(from.frame, to.frame);
+  return to.acceleration(base, level) - from.acceleration(base, level);
+}
 
 /// A direction that moves with a frame, with its first and second derivative in time, in inertial axes.
 template <class S>
@@ -97,7 +110,7 @@ class Closing final : public Constraint<S> {
   std::vector<S> accelerations(MotionLevel level) const override {
     std::vector<S> rows;
     const bool isWhole = level == MotionLevel::all;
-    const Vector3<S> second = to_.acceleration(level) - from_.acceleration(level);
+    const Vector3<S> second = accelerationBetween(from_, to_, level);
     const auto [d, rate] = motion();
     for (const Vector3<S>& e : directions_) {
       S row = turned(e).dot(second);
@@ -116,6 +129,11 @@ class Closing final : public Constraint<S> {
     }
     return rows;
   }
+
+  /// Whether it keeps both points together across its axis, and nothing else.
+  bool isPin() const { return directions_.size() == 2 && rightAngles_.empty(); }
+  const Axis& axis() const { return axis_; }
+  std::array<CarriedPoint<S>, 2> ends() const { return {from_, to_}; }
 
   /// Force [N] and moment [N m] on `to`, about its point, in inertial axes, of the last motion that was solved for.
   Vector3<S> force() const {
@@ -187,10 +205,12 @@ class Rod final : public Constraint<S> {
   }
   std::vector<S> accelerations(MotionLevel level) const override {
     const MovingPoint<S> d = motion();
-    S row = d.position.dot(Vector3<S>(to_.acceleration(level) - from_.acceleration(level)));
+    S row = d.position.dot(accelerationBetween(from_, to_, level));
     if (level == MotionLevel::all) row += d.velocity.dot(d.velocity);
     return {row / length_};
   }
+  std::array<CarriedPoint<S>, 2> ends() const { return {from_, to_}; }
+  const S& length() const { return length_; }
   /// By which the rod pushes its ends apart [N], of the last motion that was solved for.
   S push() const { return this->multipliers().front(); }
 

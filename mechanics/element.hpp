@@ -78,6 +78,12 @@ class Transmission : public Element<S> {
   /// Axes given in `to()`, seen from `from()`.
   virtual TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const;
 
+  /// By how much the origin of `to()` is accelerated beyond that of `from()`, at the last motion, in the axes of
+  /// `from()` [m/s²]; at MotionLevel::acceleration, without what velocities add.
+  virtual Vector3<S> accelerationBeyond(MotionLevel /*level*/) const {
+    return from_.R.transpose() * Vector3<S>(to_.R * to_.a) - from_.a;
+  }
+
   /// What moves like `to()` with this inertia, as `from()` feels it while the own speeds are held: Xᵀ M X, where X maps
   /// accelerations of `from()` to those of `to()`. Got from doMotion, which changes the accelerations of both frames;
   /// elements that know X say it in fewer operations.

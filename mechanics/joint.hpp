@@ -11,6 +11,7 @@
 // Source: MOBILE's elementary joint, LNCS 5045 (2008), eq. 25.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,7 @@ class Joint : public Transmission<S> {
   std::vector<Speed<S>*> speeds() const final { return hasSpeeds_ ? speeds_ : std::vector<Speed<S>*>{}; }
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const final;
   TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const final;
+  Vector3<S> accelerationBeyond(MotionLevel level) const final;
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) final;
 
   /// From now on the speeds are those of another element, which moves all inertia that there was behind (spin.hpp).
@@ -61,6 +63,9 @@ class Joint : public Transmission<S> {
   /// as an axis does that K' turns about and slides along: c × w, 2 c × g. Others add what s change by; s_v that turn
   /// with K', w × g.
   virtual Twist<S> bias(const Vector3<S>& carried, const Twist<S>& own) const;
+
+  /// R' where it is known by other means than R A.
+  std::optional<Matrix3<S>> standing_;
 
  private:
   /// Σ s x, x the rate or the acceleration of each speed.

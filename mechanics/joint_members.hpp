@@ -13,7 +13,7 @@ void Joint<S>::doMotion(MotionLevel level) {
   if (level != MotionLevel::acceleration) place_ = place();
   const auto& [rotation, d] = place_;
   if (level != MotionLevel::acceleration) {
-    moved.R = rotation.after(k.R);
+    moved.R = standing_ ? *standing_ : rotation.after(k.R);
     moved.r = rotation.toChild(k.r + d);
   }
   if (level == MotionLevel::position) return;
@@ -55,6 +55,20 @@ template <class S>
 TurningAxes<S> Joint<S>::axesInFrom(const TurningAxes<S>& turning) const {
   const Vector3<S> omega = turning.omega + sum(motions(), &Speed<S>::rate).angular;
   return place_.rotation.toParent(TurningAxes<S>{turning.axes, omega});
+}
+
+template <class S>
+Vector3<S> Joint<S>::accelerationBeyond(MotionLevel level) const {
+  const Frame<S>& k = this->from_;
+  const auto& [rotation, d] = place_;
+  const std::vector<Twist<S>> s = motions();
+  const bool isWhole = level == MotionLevel::all;
+  Vector3<S> own = sum(s, &Speed<S>::acceleration).linear;
+  if (isWhole) own += bias(rotation.toChild(k.omega), sum(s, &Speed<S>::rate)).linear;
+  Vector3<S> beyond = rotation.toParent(own);
+  if (place_.isKnownConcentric()) return beyond;
+  if (isWhole) return beyond + offsetAcceleration(k.omega, k.omegaDot) * d;
+  return beyond + k.omegaDot.cross(d);
 }
 
 template <class S>

@@ -7,6 +7,9 @@
 // Axes u have the same components in K and K'.
 #pragma once
 
+#include <optional>
+#include <utility>
+
 #include "mechanics/joint.hpp"
 
 namespace gamut {
@@ -21,12 +24,24 @@ class RevoluteJoint final : public Joint<S> {
   Variable<S>& angle() const { return angle_; }
   const Axis& axis() const { return axis_; }
 
+  /// From now on it is turned by an angle of this cosine and sine, so that frame `to` has this orientation, whatever
+  /// the variable's position is.
+  void standBy(S cosine, S sine, Matrix3<S> orientation) {
+    turned_ = Rotation<S>(axis_, std::move(cosine), std::move(sine));
+    this->standing_ = std::move(orientation);
+  }
+  void standByAngle() {
+    turned_.reset();
+    this->standing_.reset();
+  }
+
  private:
-  Place<S> place() const override { return {Rotation<S>(axis_, angle_.position)}; }
+  Place<S> place() const override { return {turned_ ? *turned_ : Rotation<S>(axis_, angle_.position)}; }
   std::vector<Twist<S>> motions() const override { return {{axis_.template unit<S>()}}; }
 
   Variable<S>& angle_;
   Axis axis_;
+  std::optional<Rotation<S>> turned_;
 };
 
 /// Slides frame `to` along an axis: prismatic joint, slider.
@@ -35,6 +50,9 @@ class PrismaticJoint final : public Joint<S> {
  public:
   PrismaticJoint(Frame<S>& from, Frame<S>& to, Variable<S>& displacement, const Axis& axis)
       : Joint<S>(from, to, {&displacement}), path_(displacement), axis_(axis) {}
+
+  Variable<S>& path() const { return path_; }
+  const Axis& axis() const { return axis_; }
 
  private:
   Place<S> place() const override { return {{}, axis_.template unit<S>() * path_.position}; }

@@ -33,6 +33,9 @@ class Rotation {
   /// By `angle` [rad] about `axis`, plus `quarterTurns` exact right angles (so that 90° has exact zeros and ones).
   Rotation(const Axis& axis, const S& angle, int quarterTurns = 0);
 
+  /// By the angle of this cosine and sine.
+  Rotation(const Axis& axis, S cosine, S sine);
+
   /// Of a unit quaternion.
   explicit Rotation(const Quaternion<S>& e);
 

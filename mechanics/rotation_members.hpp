@@ -10,16 +10,20 @@ namespace gamut {
 template <class S>
 Rotation<S>::Rotation(const Axis& axis, const S& angle, int quarterTurns) {
   using std::cos, std::sin;
-  const S beta = axis.sign() < 0 ? S(-angle) : angle;
-  const int turns = ((axis.sign() < 0 ? -(quarterTurns % 4) : quarterTurns % 4) + 4) % 4;
-  S c = cos(beta), s = sin(beta);
-  for (int i = 0; i < turns; ++i) {  // cos(β + π/2) = −sin β, sin(β + π/2) = cos β
+  S c = cos(angle), s = sin(angle);
+  for (int i = 0; i < (quarterTurns % 4 + 4) % 4; ++i) {  // cos(β + π/2) = −sin β, sin(β + π/2) = cos β
     const S turned = -s;
     s = c;
     c = turned;
   }
+  *this = Rotation(axis, std::move(c), std::move(s));
+}
+
+template <class S>
+Rotation<S>::Rotation(const Axis& axis, S c, S s) {
   if (axis.isAligned()) {
-    plane_ = Plane{(axis.index() + 1) % 3, (axis.index() + 2) % 3, c, s};
+    plane_ =
+        Plane{(axis.index() + 1) % 3, (axis.index() + 2) % 3, std::move(c), axis.sign() < 0 ? S(-s) : std::move(s)};
     return;
   }
   // Rodrigues: A = c I + s [u]× + (1 − c) u uᵀ

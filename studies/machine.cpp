@@ -19,6 +19,7 @@
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "mechanics/rest.hpp"
+#include "scalars/program/recorder.hpp"
 #include "scalars/recorded.hpp"
 #include "studies/machine_faults.hpp"
 #include "studies/results/fuzzy.hpp"
@@ -102,6 +103,46 @@ class MemoryBound {
   rlimit before_{};
 };
 
+/// The states that these outputs of a program depend on.
+std::set<int> statesOf(const Program& program, const std::set<int>& outputs) {
+  std::vector<char> isSeen(program.nodes().size(), 0);
+  std::vector<int> open;
+  const auto see = [&](int node) {
+    if (std::exchange(isSeen[node], 1) == 0) open.push_back(node);
+  };
+  for (const int output : outputs) see(program.outputNodes()[output]);
+  std::set<int> states;
+  while (!open.empty()) {
+    const int node = open.back();
+    open.pop_back();
+    if (program.nodes()[node].op == Op::state) states.insert(program.nodes()[node].a);
+    detail::forEachOperand(program.table(), node, see);
+  }
+  return states;
+}
+
+/// Dependent coordinates of loops that are closed in closed form move nothing: those that no output asks for need not
+/// be followed, and rest.
+void restUnread(const Mechanism& mechanism, Motion& motion) {
+  const std::vector<std::string> names = mechanism.stateNames();
+  std::set<int> asked, outputs;
+  for (int i = 0; i < motion.g.outputs(); ++i) outputs.insert(i);
+  for (int i = 0; i < motion.f.states(); ++i)
+    if (std::ranges::find(mechanism.dependents(), names[i]) == mechanism.dependents().end()) asked.insert(i);
+  asked.merge(statesOf(motion.g, outputs));
+  for (std::size_t before = 0; before != asked.size();) {
+    before = asked.size();
+    asked.merge(statesOf(motion.f, asked));
+  }
+  if (asked.size() == static_cast<std::size_t>(motion.f.states())) return;
+  Recorder recorder(motion.f.states(), motion.f.parameters());
+  const std::vector<int> nodes = recorder.append(motion.f);
+  std::vector<int> rates;
+  for (int i = 0; i < motion.f.states(); ++i)
+    rates.push_back(asked.contains(i) ? nodes[motion.f.outputNodes()[i]] : recorder.constant(0.0));
+  motion.f = recorder.finish(rates);
+}
+
 void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std::string>& parameters, Motion& motion) {
   const std::vector<Expression> outputs = outputExpressions(study);
   const auto outputsOf = [&](const Assembly<Recorded>& assembly) { return recordOutputs(assembly, outputs); };
@@ -114,6 +155,7 @@ void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std:
     motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
     motion.g = recordOutputs(study.mechanism, parameters, outputs);
     motion.rests = restsOf(study.mechanism);
+    restUnread(study.mechanism, motion);
   } else {
     motion.g = recordedOf(study, rest, outputs.size(), outputsOf);
     motion.f = record(0, motion.g.parameters(), [](auto, const auto&, const auto&, auto&) {});

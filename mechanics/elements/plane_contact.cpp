@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "mechanics/assembler.hpp"
-#include "mechanics/elements/seen.hpp"
+#include "mechanics/seen.hpp"
 #include "mechanics/load_on_axis.hpp"
 
 namespace gamut {

@@ -20,7 +20,7 @@
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/description/refusal.hpp"
-#include "mechanics/elements/seen.hpp"
+#include "mechanics/seen.hpp"
 #include "mechanics/elements/shape_frame.hpp"
 
 namespace gamut {

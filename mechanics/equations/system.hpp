@@ -159,6 +159,9 @@ class System {
   /// The same where all rows have a dependent speed: u̇ = T u̇_i + γ, with J T = 0, and Tᵀ M T u̇_i = Tᵀ (Q − M γ).
   std::vector<S> projected();
 
+  /// The columns of T, got from unit accelerations whose dependent ones hold still what they can.
+  std::vector<std::vector<S>> tangents(const LinearSystem<S>& rows);
+
   /// G u̇ of all rows for the j-th unit acceleration.
   std::vector<S> unitRows(std::size_t j);
   std::vector<S> rowsAt(MotionLevel level) {
@@ -168,11 +171,14 @@ class System {
   std::vector<S> eliminated();
 
   /// Any u̇ is as good a start as 0. Where a row moves with u̇_j by a number that is not zero, and with no later
-  /// variable, the u̇_j that holds it still is taken, if the row is then known to be zero: that is one component less to
-  /// be carried through the rest of the recorded program. For scalars other than Recorded nothing is known, and the
-  /// start is 0.
-  std::vector<S> start(const std::vector<std::vector<S>>& columns, const std::vector<InertiaWeight<S>>& weights);
+  /// variable, the u̇_j that holds it still is taken, from `first` on, if the row is then known to be zero: that is one
+  /// component less to be carried through the rest of the recorded program. For scalars other than Recorded nothing is
+  /// known, and u̇ stays what it is. `columns`: the rows of unit accelerations; `rowsAt`: of any.
+  std::vector<S> holdingStill(std::vector<S> accelerations, std::size_t first,
+                              const std::vector<std::vector<S>>& columns,
+                              const std::function<std::vector<S>(const std::vector<S>&)>& rowsAt);
 
+  static constexpr std::size_t mostEliminated = 2;  // speeds
   Speeds speeds_;
   Chain<S>& chain_;
   Frame<S>& base_;

@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "mechanics/equations/articulated_bodies.hpp"
 #include "mechanics/equations/least_constraint.hpp"
@@ -62,13 +63,16 @@ std::vector<S> System<S>::accelerations(Formulation formulation) {
   setAccelerations(zeros());
   doMotion();
   if (speeds_.empty()) return {};
-  const std::vector<S> result = isConstrained() && dependents_ > 0 && formulation == Formulation::articulated
-                                    ? projected()
-                                : isConstrained()                    ? constrained()
-                                : degreesOfFreedom() <= 2            ? eliminated()
-                                : formulation == Formulation::sparse ? solved()
-                                : chain_.hasGears()                  ? solvedByInertia()
-                                                                     : articulatedAccelerations(speeds_, chain_, base_);
+  const bool isArticulated = formulation == Formulation::articulated;
+  const bool isFree = formulation != Formulation::bordered && dependents_ > 0 &&
+                      (isArticulated || speeds_.size() - dependents_ <= mostEliminated);
+  const auto found = [&] {
+    if (isConstrained()) return isFree ? projected() : constrained();
+    if (speeds_.size() <= mostEliminated) return eliminated();
+    if (!isArticulated) return solved();
+    return chain_.hasGears() ? solvedByInertia() : articulatedAccelerations(speeds_, chain_, base_);
+  };
+  const std::vector<S> result = found();
   setAccelerations(result);
   doMotion();
   return result;
@@ -174,36 +178,37 @@ std::vector<S> System<S>::eliminated() {
   doForce(ForceKind::applied);
   std::vector<S> loads = generalisedForces();
   const std::vector<InertiaWeight<S>> weights = inertiaWeights();
-  std::vector<S> result = start(columns, weights);
+  std::vector<S> result =
+      holdingStill(zeros(), 0, columns, [this](const std::vector<S>& values) { return bodyAccelerations(values); });
   const std::vector<S> rest = leastConstraint(columns, bodyAccelerations(result), std::move(loads), weights);
   for (std::size_t j = 0; j < result.size(); ++j) result[j] = result[j] + rest[j];
   return result;
 }
 
 template <class S>
-std::vector<S> System<S>::start(const std::vector<std::vector<S>>& columns,
-                                const std::vector<InertiaWeight<S>>& weights) {
-  std::vector<S> start = zeros();
+std::vector<S> System<S>::holdingStill(std::vector<S> accelerations, std::size_t first,
+                                       const std::vector<std::vector<S>>& columns,
+                                       const std::function<std::vector<S>(const std::vector<S>&)>& rowsAt) {
   std::set<std::size_t> weighted;
-  for (const InertiaWeight<S>& weight : weights)
+  for (const InertiaWeight<S>& weight : inertiaWeights())
     weighted.insert({static_cast<std::size_t>(weight.k), static_cast<std::size_t>(weight.l)});
-  for (std::size_t j = 0; j < columns.size(); ++j) {
+  for (std::size_t j = first; j < columns.size(); ++j) {
     const auto movesLast = [&](std::size_t row) {
       return isKnownNonzero(columns[j][row]) &&
              std::all_of(columns.begin() + static_cast<std::ptrdiff_t>(j) + 1, columns.end(),
                          [&](const auto& later) { return isKnownZero(later[row]); });
     };
-    const std::vector<S> gamma = bodyAccelerations(start);
+    const std::vector<S> rows = rowsAt(accelerations);
     for (std::size_t row : weighted) {
-      if (!movesLast(row) || isKnownZero(gamma[row])) continue;
-      std::vector<S> trial = start;
-      trial[j] = -(gamma[row] / columns[j][row]);
-      if (!isKnownZero(bodyAccelerations(trial)[row])) continue;
-      start = std::move(trial);
+      if (!movesLast(row) || isKnownZero(rows[row])) continue;
+      std::vector<S> trial = accelerations;
+      trial[j] = trial[j] - rows[row] / columns[j][row];
+      if (!isKnownZero(rowsAt(trial)[row])) continue;
+      accelerations = std::move(trial);
       break;
     }
   }
-  return start;
+  return accelerations;
 }
 
 template <class S>
@@ -248,15 +253,54 @@ LinearSystem<S> System<S>::dependentRows() {
 }
 
 template <class S>
+std::vector<std::vector<S>> System<S>::tangents(const LinearSystem<S>& rows) {
+  const std::size_t first = speeds_.size() - dependents_;
+  const auto moved = [this](const std::vector<S>& accelerations) {
+    setAccelerations(accelerations);
+    doMotion(MotionLevel::acceleration);
+    return bodyAccelerations();
+  };
+  std::vector<std::vector<S>> columns, found;
+  for (std::size_t j = 0; j < speeds_.size(); ++j) {
+    moveUnit(j);
+    columns.push_back(bodyAccelerations());
+  }
+  for (std::size_t j = 0; j < first; ++j) {
+    std::vector<S> tangent = zeros();
+    tangent[j] = S(1.0);
+    tangent = holdingStill(std::move(tangent), first, columns, moved);
+    moved(tangent);
+    std::vector<S> open = rowsAt(MotionLevel::acceleration);
+    rows.solve(open);
+    for (std::size_t i = 0; i < dependents_; ++i) tangent[first + i] = tangent[first + i] - open[i];
+    found.push_back(std::move(tangent));
+  }
+  return found;
+}
+
+template <class S>
 void System<S>::close() {
   if (dependents_ == 0) return;
   const auto dependent = std::span(speeds_).last(dependents_);
+  const std::size_t f = speeds_.size() - dependents_;
+  const bool isByTangents = f <= mostEliminated;  // of more speeds, one solution for all of them is less work
+  std::vector<S> independent;
+  for (std::size_t j = 0; j < f && isByTangents; ++j)
+    independent.push_back(std::exchange(speeds_[j].get().rate, S(0.0)));
   for (Speed<S>& speed : dependent) speed.rate = S(0.0);
   setAccelerations(zeros());
   doMotion();
   std::vector<S> rates = ofConstraints([](Constraint<S>& constraint) { return constraint.rates(); });
   for (S& rate : rates) rate = -rate;
-  dependentRows().solve(rates);
+  const LinearSystem<S> rows = dependentRows();
+  rows.solve(rates);
+  if (isByTangents) {
+    const std::vector<std::vector<S>> along = tangents(rows);
+    for (std::size_t j = 0; j < f; ++j) {
+      speeds_[j].get().rate = independent[j];
+      for (std::size_t i = 0; i < dependents_; ++i) rates[i] = rates[i] + along[j][f + i] * independent[j];
+    }
+  }
   for (std::size_t i = 0; i < dependents_; ++i) dependent[i].get().rate = rates[i];
   setAccelerations(zeros());
 }
@@ -284,32 +328,43 @@ std::vector<S> System<S>::projected() {
   gamma = dependentPart(std::move(gamma));
   if (f == 0) return gamma;
   gamma.insert(gamma.begin(), f, S(0.0));
-  std::vector<std::vector<S>> tangents;
-  for (std::size_t j = 0; j < f; ++j) {
-    std::vector<S> tangent = dependentPart(unitRows(j));
-    tangent.insert(tangent.begin(), f, S(0.0));
-    tangent[j] = S(1.0);
-    tangents.push_back(std::move(tangent));
-  }
-  setAccelerations(gamma);
-  doMotion();
-  doForce();
-  const std::vector<S> forces = generalisedForces();  // Q − M γ
+  const std::vector<std::vector<S>> tangents = this->tangents(rows);
   const auto along = [&](const std::vector<S>& tangent, const std::vector<S>& force) {
     S sum(0.0);
     for (std::size_t i = 0; i < n; ++i) sum = sum + tangent[i] * force[i];
     return sum;
   };
-  std::vector<S> entries(f * f, S(0.0)), result;
-  for (std::size_t j = 0; j < f; ++j) {
-    setAccelerations(tangents[j]);
-    doMotion(MotionLevel::acceleration);
-    doForce(ForceKind::inertia);
-    const std::vector<S> inertia = generalisedForces();
-    for (std::size_t i = j; i < f; ++i) entries[i * f + j] = entries[j * f + i] = -along(tangents[i], inertia);
-    result.push_back(along(tangents[j], forces));
+  std::vector<S> result;
+  if (f <= mostEliminated) {
+    std::vector<std::vector<S>> columns;
+    for (const std::vector<S>& tangent : tangents) {
+      setAccelerations(tangent);
+      doMotion(MotionLevel::acceleration);
+      columns.push_back(bodyAccelerations());
+    }
+    setAccelerations(zeros());
+    doMotion();
+    doForce(ForceKind::applied);
+    const std::vector<S> forces = generalisedForces();
+    std::vector<S> loads;
+    for (const std::vector<S>& tangent : tangents) loads.push_back(along(tangent, forces));
+    result = leastConstraint(std::move(columns), bodyAccelerations(gamma), std::move(loads), inertiaWeights());
+  } else {
+    setAccelerations(gamma);
+    doMotion();
+    doForce();
+    const std::vector<S> forces = generalisedForces();  // Q − M γ
+    std::vector<S> entries(f * f, S(0.0));
+    for (std::size_t j = 0; j < f; ++j) {
+      setAccelerations(tangents[j]);
+      doMotion(MotionLevel::acceleration);
+      doForce(ForceKind::inertia);
+      const std::vector<S> inertia = generalisedForces();
+      for (std::size_t i = j; i < f; ++i) entries[i * f + j] = entries[j * f + i] = -along(tangents[i], inertia);
+      result.push_back(along(tangents[j], forces));
+    }
+    LinearSystem<S>(MatrixKind::positiveDefinite, static_cast<int>(f), std::move(entries)).solve(result);
   }
-  LinearSystem<S>(MatrixKind::positiveDefinite, static_cast<int>(f), std::move(entries)).solve(result);
   std::vector<S> all = gamma;
   for (std::size_t j = 0; j < f; ++j)
     for (std::size_t i = 0; i < n; ++i) all[i] = all[i] + tangents[j][i] * result[j];
