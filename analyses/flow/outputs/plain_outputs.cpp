@@ -44,10 +44,24 @@ Program withArguments(const Program& g, std::vector<int> nodes) {
   return Recorder(g).finish(nodes);
 }
 
-/// These nodes with those of `given` as further parameters.
+/// These nodes with those of `given` as further parameters; what only others need is not written down again.
 Program withNodesGiven(const Program& g, const std::vector<int>& given, const std::vector<int>& nodes) {
   Recorder recorder(g.states(), g.parameters() + static_cast<int>(given.size()));
-  std::vector<int> instead(g.nodes().size(), -1), outputs;
+  std::vector<int> instead(g.nodes().size(), recorder.time()), outputs, open;
+  const auto need = [&](int node) {
+    if (instead[node] >= 0) open.push_back(node);
+    instead[node] = -1;
+  };
+  std::ranges::for_each(nodes, need);
+  std::vector<char> isGiven(g.nodes().size(), 0);
+  for (const int node : given) isGiven[node] = 1;
+  while (!open.empty()) {
+    const int node = open.back();
+    open.pop_back();
+    if (isGiven[node] != 0) continue;
+    detail::forEachTwin(g.table(), node, need);
+    detail::forEachOperand(g.table(), node, need);
+  }
   for (std::size_t j = 0; j < given.size(); ++j)
     instead[given[j]] = recorder.parameter(g.parameters() + static_cast<int>(j));
   const std::vector<int> here = recorder.append(g, {}, instead);
