@@ -72,6 +72,11 @@ Interval enclosedDistance(const StraightRod& one, const StraightRod& other) {
   return enclosedDistance(pairOf(one.capsule("one"), other.capsule("other")));
 }
 
+/// Of what is recorded, as studies are.
+Interval recordedDistance(const Mechanism& m) {
+  return Evaluator<Interval>(recordOutputs(m, {}, {"apart.distance"}))(Interval(0.0), {Interval(0.0)})[0];
+}
+
 bool holdsExactly(const Interval& x, const Exact& value) {
   return Exact(x.lower()) <= value && value <= Exact(x.upper());
 }
@@ -146,13 +151,12 @@ TEST(Separation, FromABoxIsThatFromItsNearestPoint) {
 }
 
 /// Found where the slope of the square, which rises, changes its sign.
-Exact distanceFromBox(const StraightRod& rod, const Triple& size) {
-  const ExactVector x = rod.centre(), a = rod.unit();
+Exact distanceFromBox(const ExactVector& x, const ExactVector& a, const Exact& half, const Triple& size) {
   const auto beyond = [&](const ExactVector& y, std::size_t i) {
     const Exact h = Exact(size[i]) / 2;
     return y[i] > h ? Exact(y[i] - h) : y[i] < -h ? Exact(y[i] + h) : Exact(0);
   };
-  Exact low = -rod.half(), high = rod.half();
+  Exact low = -half, high = half;
   for (int halving = 0; halving < 340; ++halving) {
     const Exact s = (low + high) / 2;
     const ExactVector y = movedAlong(x, a, s);
@@ -162,7 +166,10 @@ Exact distanceFromBox(const StraightRod& rod, const Triple& size) {
   }
   const ExactVector y = movedAlong(x, a, low), d{beyond(y, 0), beyond(y, 1), beyond(y, 2)};
   const Exact apart = sqrt(exactDot(d, d));
-  return (apart < Exact("1e-60") ? Exact(0) : apart) - rod.radius;  // it comes in, but for the last digits of s
+  return apart < Exact("1e-60") ? Exact(0) : apart;  // it comes in, but for the last digits of s
+}
+Exact distanceFromBox(const StraightRod& rod, const Triple& size) {
+  return distanceFromBox(rod.centre(), rod.unit(), rod.half(), size) - rod.radius;
 }
 
 TEST(Separation, OfACapsuleFromABoxIsExactWhereAllNumbersAre) {
@@ -184,9 +191,108 @@ TEST(Separation, OfACapsuleFromABoxIsExactWhereAllNumbersAre) {
     const Mechanism m = pairOf(rod.capsule("rod"), Cuboid{"box", "inertial", {2.0, 4.0, 6.0}});
     EXPECT_NEAR(Assembly<double>(m).output("apart.distance"), distance, 1e-15) << what;
     EXPECT_TRUE(contains(enclosedDistance(m), distance)) << what;
-    EXPECT_LE(width(enclosedDistance(m)), 1e-15) << what;
+    EXPECT_TRUE(contains(recordedDistance(m), distance)) << what;
+    EXPECT_LE(width(recordedDistance(m)), 1e-15) << what;
     EXPECT_LE(abs(distanceFromBox(rod, size) - distance), Exact(1e-15)) << what;
   }
+}
+
+// ---- Two boxes ------------------------------------------------------------------------------------------------------
+
+struct ExactBox {
+  ExactVector middle;
+  std::array<ExactVector, 3> axes;
+  Triple size;
+};
+
+/// Of all edges of either the least distance from the other, by bisection: where boxes overlap, an edge of one comes
+/// into the other.
+Exact distanceOf(const ExactBox& one, const ExactBox& other) {
+  Exact least = 1e9;
+  for (const bool isSwapped : {false, true}) {
+    const ExactBox &edged = isSwapped ? other : one, &solid = isSwapped ? one : other;
+    for (std::size_t along = 0; along < 3; ++along)
+      for (const unsigned sides : {0U, 1U, 2U, 3U}) {
+        ExactVector middle = movedAlong(edged.middle, solid.middle, Exact(-1)), x, a;
+        for (std::size_t k = 1; k < 3; ++k)
+          middle = movedAlong(middle, edged.axes[(along + k) % 3],
+                              Exact(edged.size[(along + k) % 3]) / ((sides >> (k - 1) & 1U) != 0 ? 2 : -2));
+        for (std::size_t i = 0; i < 3; ++i)
+          x[i] = exactDot(middle, solid.axes[i]), a[i] = exactDot(edged.axes[along], solid.axes[i]);
+        least = std::min(least, distanceFromBox(x, a, Exact(edged.size[along]) / 2, solid.size));
+      }
+  }
+  return least;
+}
+
+struct Crate {
+  Triple middle{}, size{1, 1, 1};
+  std::array<double, 4> turn{1, 0, 0, 0};  // a quaternion of any length
+
+  Cuboid cuboid(const std::string& name) const {
+    const Quaternion<Expression> quaternion{turn[0], turn[1], turn[2], turn[3]};
+    return {name,
+            "inertial",
+            {size[0], size[1], size[2]},
+            {middle[0], middle[1], middle[2]},
+            {{axisX, 0, 0.0, "", quaternion}}};
+  }
+  ExactBox exact() const {
+    const Exact w = turn[0], x = turn[1], y = turn[2], z = turn[3], n = w * w + x * x + y * y + z * z;
+    return {{middle[0], middle[1], middle[2]},
+            {ExactVector{(w * w + x * x - y * y - z * z) / n, 2 * (x * y + w * z) / n, 2 * (x * z - w * y) / n},
+             ExactVector{2 * (x * y - w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z + w * x) / n},
+             ExactVector{2 * (x * z + w * y) / n, 2 * (y * z - w * x) / n, (w * w - x * x - y * y + z * z) / n}},
+            size};
+  }
+};
+
+Mechanism pairOf(const Crate& one, const Crate& other) { return pairOf(one.cuboid("one"), other.cuboid("other")); }
+/// Along the axes, turned by a quarter about one, or by the angle whose cosine is 3/5 or 4/5.
+TEST(Separation, OfTwoBoxesHoldsWhatIsKnown) {
+  const std::array<double, 4> along{1, 0, 0, 0}, quarter{1, 0, 0, 1}, turned{2, 0, 0, 1}, leaning{3, 1, 0, 0};
+  const struct {
+    const char* what;
+    Crate one, other;
+    double distance;
+  } cases[] = {{"faces", {{0, 0, 0}, {2, 4, 6}}, {{5, 1, 1}, {2, 2, 2}, along}, 3},
+               {"faces, of a quarter turn", {{0, 0, 0}, {2, 4, 6}}, {{0, 6, 0}, {2, 4, 6}, quarter}, 3},
+               {"edges along each other", {{0, 0, 0}, {2, 2, 2}}, {{5, 6, 0}, {2, 2, 4}, along}, 5},
+               {"corners", {{0, 0, 0}, {2, 2, 2}}, {{3, 4, 4}, {2, 2, 2}, along}, 3},
+               {"touching faces", {{0, 0, 0}, {2, 2, 2}}, {{2, 0, 0}, {2, 2, 2}, along}, 0},
+               {"touching edges", {{0, 0, 0}, {2, 2, 2}}, {{2, 2, 0}, {2, 2, 2}, along}, 0},
+               {"touching corners", {{0, 0, 0}, {2, 2, 2}}, {{2, 2, 2}, {2, 2, 2}, along}, 0},
+               {"a corner over an edge", {{0, 0, 0}, {2, 2, 2}}, {{1, 2, 5}, {2, 2, 2}, along}, 3},
+               {"in the middle", {{0, 0, 0}, {2, 2, 2}}, {{0, 0, 0}, {1, 1, 1}, along}, 0},
+               {"the same", {{0, 0, 0}, {2, 2, 2}}, {{0, 0, 0}, {2, 2, 2}, along}, 0},
+               {"a rod through a plate", {{0, 0, 0}, {8, 8, 0.5}}, {{1, 1, 0}, {0.5, 0.5, 8}, along}, 0},
+               {"a turned rod through it", {{0, 0, 0}, {8, 8, 0.5}}, {{1, 1, 0}, {0.5, 0.5, 8}, turned}, 0},
+               {"a leaning rod through it", {{0, 0, 0}, {8, 8, 0.5}}, {{1, 1, 0}, {0.5, 0.5, 8}, leaning}, 0},
+               {"no thickness", {{0, 0, 0}, {2, 2, 0}}, {{0, 0, 4}, {2, 2, 0}, along}, 4},
+               {"no thickness, crossing", {{0, 0, 0}, {2, 2, 0}}, {{0, 0, 0}, {2, 0, 2}, along}, 0},
+               {"points", {{0, 0, 0}, {0, 0, 0}}, {{0, 3, 4}, {0, 0, 0}, along}, 5},
+               {"an edge before a face", {{0, 0, 0}, {2, 2, 2}}, {{7, 0, 0}, {5, 5, 2}, turned}, 2.5},
+               {"tiny",
+                {{0, 0, 0}, {0x1p-20, 0x1p-20, 0x1p-20}},
+                {{0x1p-18, 0, 0}, {0x1p-20, 0x1p-20, 0x1p-20}, along},
+                3 * 0x1p-20},
+               {"far", {{0, 0, 0}, {2, 2, 2}}, {{0x1p20, 0, 0}, {2, 2, 2}, along}, 0x1p20 - 2}};
+  for (const auto& [what, one, other, distance] : cases)
+    for (const bool isSwapped : {false, true}) {
+      const Crate &first = isSwapped ? other : one, &second = isSwapped ? one : other;
+      EXPECT_LE(abs(distanceOf(first.exact(), second.exact()) - distance), Exact("1e-50")) << what;
+      const Mechanism m = pairOf(first, second);
+      const Interval direct = enclosedDistance(m), recorded = recordedDistance(m);
+      EXPECT_TRUE(contains(direct, distance)) << what << ": " << toString(direct);
+      EXPECT_TRUE(contains(recorded, distance)) << what << ": " << toString(recorded);
+      if (distance > 0) {
+        EXPECT_LE(width(direct), 1e-14 * distance) << what << ": " << toString(direct);
+        EXPECT_LE(width(recorded), 1e-12 * distance) << what << ": " << toString(recorded);
+      }
+      EXPECT_NEAR(Assembly<double>(m).output("apart.distance"), distance, 1e-15 * distance) << what;
+      EXPECT_NEAR(Evaluator<double>(recordOutputs(m, {}, {"apart.distance"}))(0, {0})[0], distance, 1e-15 * distance)
+          << what;
+    }
 }
 
 // ---- Any segments ---------------------------------------------------------------------------------------------------
@@ -304,19 +410,85 @@ TEST_F(Segments, AreMeasuredAlikeInEveryScalar) {
   }
 }
 
+// ---- Any boxes ------------------------------------------------------------------------------------------------------
+
+class Boxes : public Segments {
+ protected:
+  Crate crate(double size) {
+    Crate one{{number(size), number(size), number(size)}, {1 + number(), 1 + number(), 1 + number()}};
+    for (double& part : one.turn) part = number();
+    return one;
+  }
+};
+
+TEST_F(Boxes, AreAsFarApartAsTheirNearestPoints) {
+  double widest = 0;
+  int apart = 0, overlapping = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Crate one = crate(1), other = crate(1.5);
+    const Exact exact = distanceOf(one.exact(), other.exact());
+    const Mechanism m = pairOf(one, other);
+    const Interval enclosed = enclosedDistance(m);
+    ASSERT_TRUE(holdsExactly(enclosed, exact)) << i << ": " << toString(enclosed) << " without " << exact;
+    ASSERT_NEAR(Assembly<double>(m).output("apart.distance"), static_cast<double>(exact), 1e-9) << i;
+    ++(exact > 0 ? apart : overlapping);
+    if (exact == 0 || exact > 1e-3) widest = std::max(widest, width(enclosed));
+  }
+  EXPECT_LE(widest, 1e-11);
+  EXPECT_GE(std::min(apart, overlapping), 50);
+}
+
+/// Hardly turned against each other, faces and edges along each other but for that.
+TEST_F(Boxes, ThatAreNearlyParallelAreEnclosed) {
+  for (int i = 0; i < 150; ++i) {
+    const double turn = std::exp2(-26 * std::abs(number()));
+    const Crate one{{0, 0, 0}, {1 + number(), 1 + number(), 1 + number()}};
+    const Crate other{{number(2), number(2), i % 3 == 0 ? turn * number() : number(2)},
+                      {1 + number(), 1 + number(), i % 3 == 0 ? one.size[2] : 1 + number()},
+                      {1, turn * number(), turn * number(), turn * number()}};
+    const Exact exact = distanceOf(one.exact(), other.exact());
+    const Mechanism m = pairOf(one, other);
+    const Interval enclosed = enclosedDistance(m);
+    ASSERT_TRUE(holdsExactly(enclosed, exact)) << i << ": " << toString(enclosed) << " without " << exact;
+    if (exact > 0.1) {
+      ASSERT_LE(width(enclosed), 6.2e-4);  // lengths² leastSize/4/(2 distance)
+    }
+  }
+}
+
+/// Two arms about axes at right angles, far from parallel: thin as all else, and the same recorded.
+TEST_F(Boxes, OnMovingArmsAreAsFarApartAsInClosedForm) {
+  Mechanism m;
+  m.add(Revolute{"one", "inertial", "A", axisY});
+  m.add(Mass{"first", "A", 1.0, {0.0, 0.0, -0.5}, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}});
+  m.add(Cuboid{"left", "A", {0.125, 0.25, 1.0}, {0.0, 0.0, -0.5}});
+  m.add(Link{"base", "inertial", "B", {0.5, 0.75, 0.25}});
+  m.add(Revolute{"other", "B", "C", axisX});
+  m.add(Mass{"second", "C", 1.0, {0.0, 0.0, -0.5}, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}});
+  m.add(Cuboid{"right", "C", {0.25, 0.125, 0.75}, {0.125, 0.0, -0.5}});
+  m.add(Separation{"apart", "left", "right"});
+  Evaluator<Interval> recorded(recordOutputs(m, {}, {"apart.distance"}));
+  Evaluator<double> asNumber(recordOutputs(m, {}, {"apart.distance"}));
+  for (int i = 0; i < 60; ++i) {
+    const std::vector<double> x = {number(3), number(3), 0, 0};
+    const Exact c = cos(Exact(x[0])), s = sin(Exact(x[0])), k = cos(Exact(x[1])), z = sin(Exact(x[1]));
+    const ExactBox left{{-s / 2, 0, -c / 2}, {ExactVector{c, 0, -s}, {0, 1, 0}, {s, 0, c}}, {0.125, 0.25, 1}},
+        right{{Exact(0.625), Exact(0.75) + z / 2, Exact(0.25) - k / 2},
+              {ExactVector{1, 0, 0}, {0, k, z}, {0, -z, k}},
+              {0.25, 0.125, 0.75}};
+    const Exact exact = distanceOf(left, right);
+    const Interval enclosed = recorded(Interval(0.0), {x[0], x[1], 0, 0})[0];
+    ASSERT_TRUE(holdsExactly(enclosed, exact)) << i << ": " << toString(enclosed) << " without " << exact;
+    if (exact > 0.01) {
+      ASSERT_LE(width(enclosed), 1e-9) << i;
+    }
+    ASSERT_NEAR(asNumber(0, x)[0], static_cast<double>(exact), 1e-9) << i;
+  }
+}
+
 // ---- What is refused ------------------------------------------------------------------------------------------------
 
-TEST(Separation, RefusesWhatHasNoDistance) {
-  Mechanism m;
-  m.add(Cuboid{"box", "inertial", {1.0, 1.0, 1.0}});
-  m.add(Cuboid{"crate", "inertial", {1.0, 1.0, 1.0}, {3.0, 0.0, 0.0}});
-  m.add(Separation{"apart", "box", "crate"});
-  try {
-    Assembly<double> assembly(m);
-    FAIL() << "there is none";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("between two boxes"));
-  }
+TEST(Separation, RefusesLengthsBelowZero) {
   for (const Described& negative :
        {Described(Sphere{"shape", "inertial", -1.0}), Described(Capsule{"shape", "inertial", -1.0, 1.0}),
         Described(Capsule{"shape", "inertial", 1.0, -1.0}), Described(Cuboid{"shape", "inertial", {1.0, -1.0, 1.0}})}) {

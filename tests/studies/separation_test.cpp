@@ -2,6 +2,7 @@
 // positions and the nearest points change, and proved never to be less than a limit.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <string>
 
 #include "studies/running/run.hpp"
@@ -12,7 +13,8 @@ namespace {
 
 /// A pendulum with a rod about it; lengths in m, angles in degrees.
 std::string armText(const std::string& name, const std::string& from, const std::string& axis, const std::string& angle,
-                    const std::string& length) {
+                    const std::string& length, const std::string& shape) {
+  const bool isBox = shape == "box";
   return R"([[mechanism.element]]
     type = "revolute"
     name = ")" +
@@ -36,14 +38,15 @@ std::string armText(const std::string& name, const std::string& from, const std:
          length + R"("]
     inertia = [0.1, 0.1, 0.1]
     [[mechanism.element]]
-    type = "capsule"
+    type = ")" +
+         shape + R"("
     name = ")" +
          name + R"(_rod"
     at = ")" +
          name + R"(_frame"
-    radius = "50 mm"
-    length = ")" +
-         length + R"("
+    )" + (isBox ? R"(size = ["80 mm", "100 mm", ")" : R"(radius = "50 mm"
+    length = ")") +
+         length + (isBox ? "\"]" : "\"") + R"(
     centre = [0, 0, "-0.5 )" +
          length + R"("]
     )";
@@ -51,7 +54,7 @@ std::string armText(const std::string& name, const std::string& from, const std:
 
 /// Two such arms, their pivots `apart`, all but the pivots known to 1 %.
 Study twoArms(const std::string& apart, const std::string& axis, const std::string& angle,
-              const std::string& further = "") {
+              const std::string& further = "", const std::array<std::string, 2>& shapes = {"capsule", "capsule"}) {
   return readStudyText(R"(
     [study]
     title = "Two arms"
@@ -67,14 +70,14 @@ Study twoArms(const std::string& apart, const std::string& axis, const std::stri
     one_angle = "20 deg"
     other_angle = ")" + angle +
                            R"("
-    )" + armText("left", "inertial", "\"y\"", "one_angle", "one") +
+    )" + armText("left", "inertial", "\"y\"", "one_angle", "one", shapes[0]) +
                            R"([[mechanism.element]]
     type = "link"
     name = "apart"
     from = "inertial"
     to = "base"
     vector = )" + apart + "\n" +
-                           armText("right", "base", axis, "other_angle", "other") + R"([[mechanism.element]]
+                           armText("right", "base", axis, "other_angle", "other", shapes[1]) + R"([[mechanism.element]]
     type = "separation"
     name = "gap"
     from = "left_rod"
@@ -115,6 +118,22 @@ TEST_F(TwoArms, AreHeldApartTightly) {
     EXPECT_EQ(results.comparison.verdict, Agreement::inside) << what;
     EXPECT_FALSE(results.comparison.maximum > 1.05) << what;  // NaN: there is one distance in two parallel planes
   }
+}
+
+TEST_F(TwoArms, OfBoxesAreHeldApartTightly) {
+  const std::string plane = "[0.5, 0, 0]";
+  for (const std::array<std::string, 2>& shapes :
+       {std::array<std::string, 2>{"box", "box"}, {"box", "capsule"}, {"capsule", "box"}}) {
+    const Results results = runOf(twoArms(plane, "\"y\"", "-5 deg", "", shapes));
+    EXPECT_EQ(results.comparison.verdict, Agreement::inside) << shapes[0] << ", " << shapes[1];
+    EXPECT_LE(results.comparison.maximum, 1.05) << shapes[0] << ", " << shapes[1];
+  }
+  const auto judged = [&](const std::string& limit) {
+    const std::string demand = "[[requirement]]\nname = \"apart\"\nalways = \"gap.distance > " + limit + "\"\n";
+    return runOf(twoArms(plane, "\"y\"", "-5 deg", demand, {"box", "box"})).requirements[0].word;
+  };
+  EXPECT_EQ(judged("50 mm"), Decision::met);
+  EXPECT_EQ(judged("70 mm"), Decision::violated);
 }
 
 TEST_F(TwoArms, AreProvedNeverToComeCloser) {
