@@ -265,6 +265,7 @@ void describeMechanism(Settings& s, bool hasRobot, RobotChoices& robot) {
   s.flag({"damping", "of the robot: whether joints have their viscous damping", "true"}, robot.damping);
   s.flag({"friction", "of the robot: whether joints have their dry friction", "true"}, robot.friction);
   s.flag({"mimic", "of the robot: whether joints follow others", "true"}, robot.mimic);
+  s.flag({"collision", "of the robot: whether links carry the shapes of <collision>", "false"}, robot.collision);
   s.own({"initial", "of the robot: where its joints are at the start, and how fast", "0"}, R"({"type": "object"})");
 }
 

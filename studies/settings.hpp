@@ -80,6 +80,7 @@ class Settings {
 struct RobotChoices {
   bool isFree = false;  ///< its root moves in six degrees of freedom; else it is fixed to the inertial frame
   bool damping = true, friction = true, mimic = true;
+  bool collision = false;  ///< links have the shapes of their <collision>
 };
 
 /// The keys of [mechanism], those of a robot where there is one.

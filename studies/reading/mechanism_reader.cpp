@@ -73,10 +73,11 @@ class MechanismReader {
     const std::string path = source_.asText(node, "mechanism.urdf");
     const std::string found = (source_.folder() / path).string();
     files_.robot = atHand_ ? atHand_->robot : textOfRobotAt(node, found);
-    const Robot robot = readRobotText(files_.robot, atHand_ ? path + " in " + source_.name() : found);
+    readSettings(section_, described(true));
+    const Robot robot =
+        readRobotText(files_.robot, atHand_ ? path + " in " + source_.name() : found, choices_.collision);
     notes_ = robot.notes;
 
-    readSettings(section_, described(true));
     const toml::node* initial = section_.find("initial");
     std::map<std::string, const toml::node*> given;
     if (initial != nullptr)

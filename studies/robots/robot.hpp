@@ -25,10 +25,20 @@ struct Robot {
     Interval mass = 0.0;                                               ///< kg
     std::array<Interval, 6> inertia = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};  ///< xx, yy, zz, xy, yz, zx, in axes of `place`
   };
+  /// Of <collision>: a box, a sphere or a cylinder along z about its origin.
+  struct Shape {
+    enum class Kind { box, sphere, cylinder };
+    Kind kind = Kind::box;
+    int line = 0;
+    Place place;                                     ///< in the link
+    std::array<Interval, 3> size = {0.0, 0.0, 0.0};  ///< m, of a box
+    Interval radius = 0.0, length = 0.0;             ///< m, of others
+  };
   struct Link {
     std::string name;
     int line = 0;
     std::optional<Inertial> inertial = {};
+    std::vector<Shape> shapes = {};  ///< if they are taken
   };
   enum class Type { revolute, continuous, prismatic, fixed, planar, floating };
   /// What stands in the file; nothing is held to it.
@@ -76,7 +86,7 @@ const Described& elementOf(Robot::Type type);
 /// Throws StudyError, for files that no robot description is as large as, too.
 std::string textOfRobot(const std::string& path);
 
-/// Throws StudyError. `name` is what messages call the file.
-Robot readRobotText(const std::string& text, const std::string& name);
+/// Throws StudyError. `name` is what messages call the file. The shapes of <collision> are taken if they are asked for.
+Robot readRobotText(const std::string& text, const std::string& name, bool takesShapes = false);
 
 }  // namespace gamut

@@ -84,6 +84,8 @@ class RobotElements {
   }
 
   void addBody(const Robot::Link& link) {
+    for (std::size_t i = 0; i < link.shapes.size(); ++i)
+      addShape(link, link.shapes[i], link.shapes.size() == 1 ? "" : fmt::format(".{}", i + 1));
     if (!link.inertial) return;
     const Robot::Inertial& inertial = *link.inertial;
     Mass body{link.name + ".body", link.name};
@@ -93,6 +95,24 @@ class RobotElements {
       body.inertia[i] = number(link.name + ".inertia." + symmetricEntries[i], inertial.inertia[i], "kg m^2");
     body.rotation = rotation(link.name + ".inertia", inertial.place.rpy);
     add(std::move(body), link.line);
+  }
+
+  /// A cylinder by the capsule that holds it.
+  void addShape(const Robot::Link& link, const Robot::Shape& shape, const std::string& number) {
+    const std::string name = link.name + ".collision" + number, origin = name + ".origin";
+    add(Link{origin, link.name, origin, vector(origin, shape.place.xyz), rotation(origin, shape.place.rpy)},
+        shape.line);
+    switch (shape.kind) {
+      case Robot::Shape::Kind::box:
+        add(Cuboid{name, origin, {shape.size[0], shape.size[1], shape.size[2]}}, shape.line);
+        break;
+      case Robot::Shape::Kind::sphere:
+        add(Sphere{name, origin, shape.radius}, shape.line);
+        break;
+      case Robot::Shape::Kind::cylinder:
+        add(Capsule{name, origin, shape.radius, shape.length, axisZ}, shape.line);
+        break;
+    }
   }
 
   void addJoint(const Robot::Joint& joint) {

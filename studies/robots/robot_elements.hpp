@@ -18,8 +18,9 @@ struct RobotElement {
 /// Declares the robot's numbers in the mechanism: LINK.mass, LINK.centre.x … z, LINK.inertia.xx …, the inertia's
 /// LINK.inertia.roll, pitch and yaw, JOINT.origin.x … z, JOINT.origin.roll, pitch and yaw, and, where they are not 0,
 /// JOINT.damping and JOINT.friction. Returns the elements that are to be added to it, in this order: a frame LINK for
-/// each link, a mass LINK.body, a joint JOINT behind a frame JOINT.origin. Throws StudyError for what is not supported
-/// yet, std::invalid_argument as Mechanism::addParameter does.
+/// each link, its shapes LINK.collision behind frames LINK.collision.origin, numbered if there are several, a mass
+/// LINK.body, a joint JOINT behind a frame JOINT.origin. Throws StudyError for what is not supported yet,
+/// std::invalid_argument as Mechanism::addParameter does.
 std::vector<RobotElement> robotElements(const Robot& robot, const RobotChoices& choices, Mechanism& mechanism);
 
 }  // namespace gamut

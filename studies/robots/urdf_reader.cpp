@@ -104,7 +104,10 @@ class LeftOut {
 
 class UrdfReader {
  public:
-  UrdfReader(const std::string& text, const std::string& name) : source_(text, name) { robot_.file = name; }
+  UrdfReader(const std::string& text, const std::string& name, bool takesShapes)
+      : source_(text, name), takesShapes_(takesShapes) {
+    robot_.file = name;
+  }
 
   Robot read() {
     const Tag& root = source_.root("robot");
@@ -134,13 +137,15 @@ class UrdfReader {
         source_.fail(e->GetLineNum(), fmt::format("<{}> is of xacro", shortened(word)),
                      "the file that xacro makes of this one: xacro FILE.xacro > FILE.urdf");
       if (!knows(children, word))
-        (word == "visual" || word == "collision" ? shapes_ : elements_)
+        (word == "visual" || (word == "collision" && !takesShapes_) ? shapes_ : elements_)
             .add(fmt::format("<{}>", shortened(word)), e->GetLineNum());
     }
   }
 
   void say() {
     shapes_.say(source_, ": shapes and meshes are left out", robot_.notes);
+    meshes_.say(source_, ": left out of <collision>, of which boxes, spheres and cylinders are taken", robot_.notes);
+    cylinders_.say(source_, ": taken as capsules that hold them, with half a sphere more at either end", robot_.notes);
     elements_.say(source_, ": left out, as they say nothing of how bodies and joints move", robot_.notes);
     attributes_.say(source_, ": left out, as URDF knows no such attribute", robot_.notes);
     limits_.say(source_, ": kept for information; motions may go beyond", robot_.notes);
@@ -158,15 +163,62 @@ class UrdfReader {
   }
 
   void readLink(const Tag& element) {
-    lookAt(element, {"name", "type"}, {"inertial"});
+    if (takesShapes_)
+      lookAt(element, {"name", "type"}, {"inertial", "collision"});
+    else
+      lookAt(element, {"name", "type"}, {"inertial"});
     Robot::Link link{source_.requiredName(element, "name", "the name of the link"), element.GetLineNum()};
     if (const auto other = find(robot_.links, link.name); other != robot_.links.end())
       source_.fail(link.line, fmt::format("there is a link {} in line {} already", inQuotes(link.name), other->line),
                    "a name for each");
     if (const Tag* inertial = source_.child(element, "inertial")) link.inertial = readInertial(*inertial, link.name);
+    const Tag* shape = takesShapes_ ? element.FirstChildElement("collision") : nullptr;
+    for (; shape != nullptr; shape = shape->NextSiblingElement("collision")) readShape(*shape, link);
     robot_.links.push_back(std::move(link));
     if (robot_.links.size() > mostLinks)
       source_.fail(element.GetLineNum(), "there are too many links", fmt::format("at most {}", mostLinks));
+  }
+
+  void readShape(const Tag& element, Robot::Link& link) {
+    lookAt(element, {"name"}, {"origin", "geometry"});
+    Robot::Shape shape;
+    shape.line = element.GetLineNum();
+    shape.place = readPlace(element);
+    const std::string expected = "<geometry> with a <box>, a <sphere>, a <cylinder> or a <mesh>";
+    const Tag& geometry = source_.requiredChild(element, "geometry", expected);
+    const Tag* form = geometry.FirstChildElement();
+    const std::string_view word = form == nullptr ? "" : form->Name();
+    if (word.empty() || form->NextSiblingElement() != nullptr)
+      source_.fail(geometry.GetLineNum(),
+                   fmt::format("a shape of {} is {}", inQuotes(link.name), word.empty() ? "nothing" : "more than one"),
+                   expected);
+    const auto lengths = [&](const char* attribute, std::size_t count) {
+      const std::vector<Interval> numbers = source_.numbers(*form, attribute, count);
+      for (const Interval& number : numbers)
+        if (number.upper() < 0)
+          source_.fail(form->GetLineNum(),
+                       fmt::format("the {} of a shape of {} is negative", attribute, inQuotes(link.name)),
+                       "a length of at least 0 m");
+      return numbers;
+    };
+    if (word == "box") {
+      lookAt(*form, {"size"}, {});
+      std::ranges::copy(lengths("size", 3), shape.size.begin());
+    } else if (word == "sphere") {
+      lookAt(*form, {"radius"}, {});
+      shape.kind = Robot::Shape::Kind::sphere;
+      shape.radius = lengths("radius", 1).front();
+    } else if (word == "cylinder") {
+      lookAt(*form, {"radius", "length"}, {});
+      cylinders_.add("<cylinder>", form->GetLineNum());
+      shape.kind = Robot::Shape::Kind::cylinder;
+      shape.radius = lengths("radius", 1).front();
+      shape.length = lengths("length", 1).front();
+    } else {
+      meshes_.add(fmt::format("<{}>", shortened(word)), form->GetLineNum());
+      return;
+    }
+    link.shapes.push_back(shape);
   }
 
   Robot::Inertial readInertial(const Tag& element, const std::string& link) {
@@ -353,7 +405,8 @@ class UrdfReader {
 
   XmlSource source_;
   Robot robot_;
-  LeftOut shapes_, elements_, attributes_, limits_;
+  bool takesShapes_;
+  LeftOut shapes_, meshes_, cylinders_, elements_, attributes_, limits_;
 };
 
 }  // namespace
@@ -391,6 +444,8 @@ std::string textOfRobot(const std::string& path) {
   return text;
 }
 
-Robot readRobotText(const std::string& text, const std::string& name) { return UrdfReader(text, name).read(); }
+Robot readRobotText(const std::string& text, const std::string& name, bool takesShapes) {
+  return UrdfReader(text, name, takesShapes).read();
+}
 
 }  // namespace gamut

@@ -78,6 +78,77 @@ TEST(RobotReader, NotesWhatItLeavesOut) {
                                        "r.urdf:25: note: <limit> (2): kept for information; motions may go beyond"));
 }
 
+// ---- Shapes ---------------------------------------------------------------------------------------------------------
+
+std::string shapedRobot(const std::string& ofArm, const std::string& ofGround = "<sphere radius=\"0.125\"/>") {
+  return "<robot name=\"shaped\">\n<link name=\"ground\"><collision><geometry>" + ofGround +
+         "</geometry></collision></link>\n<link name=\"arm\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" "
+         "ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>\n" +
+         ofArm +
+         "</link>\n<joint name=\"hinge\" type=\"revolute\"><parent link=\"ground\"/><child link=\"arm\"/><origin "
+         "xyz=\"0 0 2\"/><axis xyz=\"0 1 0\"/></joint></robot>";
+}
+constexpr const char* armsShapes =
+    "<collision><origin xyz=\"0 0 -1\" rpy=\"0 0 0.5\"/><geometry><box size=\"0.5 0.25 1\"/></geometry></collision>\n"
+    "<collision name=\"tip\"><origin xyz=\"0.5 0 0\" rpy=\"0 1.5 0\"/><geometry><cylinder radius=\"0.25\" "
+    "length=\"1\"/></geometry></collision>\n<collision><geometry><mesh filename=\"a.stl\"/></geometry></collision>\n";
+
+TEST(RobotShapes, AreTakenIfTheyAreAskedFor) {
+  const Robot without = readRobotText(shapedRobot(armsShapes), "r.urdf");
+  EXPECT_TRUE(without.links[1].shapes.empty());
+  EXPECT_THAT(without.notes, ElementsAre("r.urdf:2: note: <collision> (4): shapes and meshes are left out"));
+  const Robot robot = readRobotText(shapedRobot(armsShapes), "r.urdf", true);
+  ASSERT_EQ(robot.links[1].shapes.size(), 2U);
+  EXPECT_THAT(robot.notes,
+              ElementsAre("r.urdf:6: note: <mesh>: left out of <collision>, of which boxes, spheres and cylinders are "
+                          "taken",
+                          "r.urdf:5: note: <cylinder>: taken as capsules that hold them, with half a sphere more at "
+                          "either end"));
+
+  TemporaryFolder folder;
+  folder.write("r.urdf", shapedRobot(armsShapes));
+  const std::string study =
+      "[mechanism]\nurdf = \"r.urdf\"\ncollision = true\n[mechanism.initial]\nhinge.angle = 0.75\n"
+      "[[mechanism.element]]\ntype = \"separation\"\nname = \"box\"\nfrom = \"ground.collision\"\n"
+      "to = \"arm.collision.1\"\n[[mechanism.element]]\ntype = \"separation\"\nname = \"tip\"\n"
+      "from = \"ground.collision\"\nto = \"arm.collision.2\"\n";
+  const Mechanism read = readMechanismText(study, folder.path("s.toml"));
+  Mechanism made;
+  made.add(Sphere{"ball", "inertial", 0.125});
+  made.add(Link{"up", "inertial", "top", {0.0, 0.0, 2.0}});
+  made.add(Revolute{"hinge", "top", "arm", axisY, 0.75});
+  made.add(Mass{"body", "arm", 1.0});
+  made.add(Link{"first", "arm", "first_place", {0.0, 0.0, -1.0}, {{axisZ, 0, 0.5}}});
+  made.add(Cuboid{"first_box", "first_place", {0.5, 0.25, 1.0}});
+  made.add(Link{"second", "arm", "second_place", {0.5, 0.0, 0.0}, {{axisY, 0, 1.5}}});
+  made.add(Capsule{"second_rod", "second_place", 0.25, 1.0});
+  made.add(Separation{"box", "ball", "first_box"});
+  made.add(Separation{"tip", "ball", "second_rod"});
+  for (const std::string output : {"box.distance", "tip.distance"})
+    EXPECT_DOUBLE_EQ(Assembly<double>(read).output(output), Assembly<double>(made).output(output)) << output;
+  EXPECT_TRUE(isEqual(read.nominal("arm.collision.2.radius"), Interval(0.25)));
+  EXPECT_TRUE(isEqual(read.nominal("arm.collision.1.origin.z"), Interval(-1.0)));
+  EXPECT_TRUE(isEqual(read.nominal("ground.collision.radius"), Interval(0.125)));
+}
+
+TEST(RobotShapes, SayWhatIsWrongInOneLine) {
+  const auto complaint = [](const std::string& shape) -> std::string {
+    try {
+      readRobotText(shapedRobot("", shape), "r.urdf", true);
+    } catch (const StudyError& error) {
+      return error.what();
+    }
+    return "it was read";
+  };
+  EXPECT_THAT(complaint(""), StartsWith("r.urdf:2: a shape of 'ground' is nothing; expected <geometry> with a <box>"));
+  EXPECT_THAT(complaint("<sphere radius=\"1\"/><box size=\"1 1 1\"/>"),
+              StartsWith("r.urdf:2: a shape of 'ground' is more than one"));
+  EXPECT_THAT(complaint("<sphere radius=\"-1\"/>"),
+              StartsWith("r.urdf:2: the radius of a shape of 'ground' is negative; expected a length of at least 0 m"));
+  EXPECT_THAT(complaint("<box size=\"1 1\"/>"), StartsWith("r.urdf:2: "));
+  EXPECT_THAT(complaint("<cylinder radius=\"1\"/>"), StartsWith("r.urdf:2: "));
+}
+
 // ---- What it moves like ---------------------------------------------------------------------------------------------
 
 struct Files {
