@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mechanics/assembly.hpp"
+#include "mechanics/polyhedron.hpp"
 #include "mechanics/rotation.hpp"
 #include "scalars/program/program.hpp"
 #include "scalars/recorded.hpp"
@@ -36,6 +37,7 @@ class Seen final : public Onlooker {
     Expression radius = 0.0, length = 0.0;
     Axis axis = axisZ;
     std::optional<ExpressionVector> size = std::nullopt;  // of a box
+    std::optional<Polyhedron> hull = std::nullopt;
   };
   static ExpressionVector zero() { return {0.0, 0.0, 0.0}; }
 
@@ -55,6 +57,9 @@ class Seen final : public Onlooker {
   }
   void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const>, std::size_t) override {
     if (shape && word.key == "size") std::ranges::copy(numbers, shape->size.emplace(zero()).begin());
+  }
+  void points(const Word&, std::vector<ExpressionVector>& points) override {
+    if (const auto exact = exactPoints(points); shape && exact) shape->hull.emplace(*exact);
   }
   void axis(const Word&, Axis& axis) override {
     if (shape) shape->axis = axis;
@@ -109,7 +114,7 @@ class Finder {
     }
   }
 
-  /// By lines between points of the shape's own frame: a segment, or the edges of a box.
+  /// By lines between points of the shape's own frame: a segment, or the edges of a box or a polyhedron.
   void addShape(const Described& element, const Seen::Shape& shape) {
     const std::string& name = element.name();
     const auto add = [&](std::size_t from, std::size_t to) {
@@ -126,6 +131,14 @@ class Finder {
       for (unsigned corner = 0; corner < 8; ++corner)
         for (unsigned along = 1; along < 8; along *= 2)
           if ((corner & along) == 0) add(corners[corner], corners[corner | along]);
+      return;
+    }
+    if (shape.hull) {
+      std::vector<std::size_t> corners;
+      for (const Polyhedron::Point& corner : shape.hull->corners())
+        corners.push_back(pointOf(name + ".corner" + std::to_string(corners.size() + 1),
+                                  {name, {enclosureOf(corner[0]), enclosureOf(corner[1]), enclosureOf(corner[2])}}));
+      for (const Polyhedron::Edge& edge : shape.hull->edges()) add(corners[edge.from], corners[edge.to]);
       return;
     }
     std::array<ExpressionVector, 2> ends = {Seen::zero(), Seen::zero()};

@@ -28,7 +28,7 @@ struct Skeleton {
     joint,   ///< `to` moves against `from`
     mass,    ///< `from` is the frame that it is fixed to, `to` its centre
     spring,  ///< a load between two points
-    shape,   ///< all within `radius` of the line between two points: a sphere, a capsule, an edge of a box
+    shape,   ///< all within `radius` of the line between two points: a sphere, a capsule, an edge of a box or a hull
   };
   struct Part {
     std::string name, type;  ///< as in the study

@@ -156,6 +156,9 @@ class Fields {
   virtual void measureSolved(const Word& word) { measure(word); }
   /// The same of the length between two points, which lie apart at the start, or its direction is not determined.
   virtual void measureLength(const Word& word) { measure(word); }
+
+  /// Points that are exact, so that nothing about them is uncertain: a list of [x, y, z] in files.
+  virtual void points(const Word& /*word*/, std::vector<ExpressionVector>& /*points*/) {}
 };
 
 /// A visitor that overlooks what it does not ask for.

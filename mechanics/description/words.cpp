@@ -27,6 +27,7 @@ class Listener final : public Fields {
                std::size_t /*least*/) override {
     key(word);
   }
+  void points(const Word& word, std::vector<ExpressionVector>& /*points*/) override { key(word); }
   void coordinate(const Word& position, Expression& /*initial*/, Coordinate /*kind*/, const Word& rate,
                   Expression& /*initialRate*/) override {
     initial(position, "0");

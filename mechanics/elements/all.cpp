@@ -43,6 +43,7 @@ std::vector<Described> elementTypes() {
   types.emplace_back(Sphere{});
   types.emplace_back(Capsule{});
   types.emplace_back(Cuboid{});
+  types.emplace_back(Hull{});
   types.emplace_back(Separation{});
   return types;
 }

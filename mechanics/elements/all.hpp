@@ -12,6 +12,7 @@
 #include "mechanics/elements/drive.hpp"
 #include "mechanics/elements/force.hpp"
 #include "mechanics/elements/free.hpp"
+#include "mechanics/elements/hull.hpp"
 #include "mechanics/elements/joint_force.hpp"
 #include "mechanics/elements/joint_friction.hpp"
 #include "mechanics/elements/joint_spring.hpp"

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanics/assembler.hpp"
+#include "mechanics/description/refusal.hpp"
 #include "mechanics/elements/shape_frame.hpp"
 #include "mechanics/elements/solid_distance.hpp"
 #include "mechanics/seen.hpp"
@@ -48,19 +49,23 @@ S squareBetween(const Placed<S>& one, const Placed<S>& other) {
 
 template <class S>
 Solid<S> solidOf(const Outline<S>& outline) {
+  if (outline.core == ShapeCore::polyhedron) return Solid<S>(*outline.polyhedron);
   return outline.core == ShapeCore::segment ? Solid<S>::segment(outline.axis, outline.halves[0])
                                             : Solid<S>::cuboid(outline.halves);
 }
 
-/// Of a solid, or of a segment, from a solid.
+/// From a solid: of a point, of a segment, of another solid, but for the radii.
 template <class S>
 S fromSolid(const Placed<S>& one, const Placed<S>& solid) {
-  using std::sqrt;
+  using std::min, std::sqrt;
+  if (one.is(ShapeCore::point) && solid.is(ShapeCore::cuboid)) return fromBox(one.middle(), solid);
   const Matrix3<S> inSolid = solid.frame.turning.axes.transpose();
-  const Vector3<S> apart = one.middle() - solid.middle();
-  const SolidPair<S> pair(solidOf(one.outline), solidOf(solid.outline), inSolid * one.frame.turning.axes,
-                          inSolid * apart);
-  return S(sqrt(pair.squareBetween())) - one.outline.radius;
+  const Vector3<S> apart = inSolid * Vector3<S>(one.middle() - solid.middle());
+  const Solid<S> own = solidOf(solid.outline);
+  if (one.is(ShapeCore::point))  // inside, the nearest of the surface is in the face that it is least behind
+    return S(sqrt(own.squareTo(apart))) + S(2.0) * S(min(own.beyond(apart), S(0.0)));
+  const SolidPair<S> pair(solidOf(one.outline), own, inSolid * one.frame.turning.axes, apart);
+  return S(sqrt(pair.squareBetween()));
 }
 
 template <class S>
@@ -69,12 +74,18 @@ S distanceOf(const Frame<S>& from, const Frame<S>& to) {
   using std::sqrt;
   const Frame<S>* base = commonBase<S>(&from, &to);
   const Placed<S> one(from, base), other(to, base);
-  for (const auto& [first, second] : {std::pair(&one, &other), std::pair(&other, &one)})
-    if (second->is(cuboid)) {
-      if (first->is(point)) return fromBox(first->middle(), *second) - first->outline.radius;
-      return fromSolid(*first, *second);
-    }
-  return S(sqrt(squareBetween(one, other))) - (one.outline.radius + other.outline.radius);
+  const S radii = one.outline.radius + other.outline.radius;
+  const auto isSolid = [](const Placed<S>& placed) { return placed.is(cuboid) || placed.is(polyhedron); };
+  if (isSolid(other)) return fromSolid(one, other) - radii;
+  if (isSolid(one)) return fromSolid(other, one) - radii;
+  return S(sqrt(squareBetween(one, other))) - radii;
+}
+
+template <class S>
+bool isFlat(const Frame<S>& frame) {
+  const auto* shape = dynamic_cast<const ShapeFrame<S>*>(frame.origin);
+  if (shape == nullptr || shape->outline().core != ShapeCore::polyhedron) return false;
+  return shape->outline().polyhedron == nullptr || shape->outline().polyhedron->faces().empty();
 }
 
 }  // namespace
@@ -86,12 +97,15 @@ void Separation::describe(Fields& f) {
       {"distance", "m",
        "between the nearest points of their surfaces. Below 0 where they overlap: by both radii, less what centres or "
        "segments are apart; of a box and a sphere by how far that would have to be drawn out; of a box and a "
-       "capsule by its radius at most; of two boxes 0"});
+       "capsule by its radius at most; of a hull likewise; of two boxes or hulls 0, less the radii"});
 }
 
 template <class S>
 void Separation::assemble(Assembler<S>& a) const {
   const Frame<S>&one = a.frame(from), &other = a.frame(to);
+  for (const auto& [shape, word] : {std::pair(&one, &from), std::pair(&other, &to)})
+    if (isFlat(*shape))
+      throw UnfitPart(name, "'" + name + "' is from '" + *word + "', whose points lie in one plane", "a solid");
   a.measure("distance", [&one, &other] { return distanceOf(one, other); });
 }
 

@@ -10,7 +10,8 @@ struct Separation {
   static constexpr int order = 350;  ///< in the documentation
   static constexpr const char* summary =
       "measures how far two shapes are from each other, at their nearest points. A frame that is no shape counts as a "
-      "point, its origin";
+      "point, its origin. Of two boxes or hulls that turn about different directions all edges are compared, which "
+      "takes a hundred times what capsules do";
 
   std::string name, from, to;
 

@@ -1,9 +1,11 @@
 // The frame that a shape is: its origin is the middle of the shape, its axes are those that the shape is stated in.
 #pragma once
 
+#include <memory>
 #include <utility>
 
 #include "mechanics/joint.hpp"
+#include "mechanics/polyhedron.hpp"
 
 namespace gamut {
 
@@ -12,6 +14,7 @@ enum class ShapeCore {
   point,    ///< the origin
   segment,  ///< s `axis`, |s| ≤ halves[0]
   cuboid,   ///< x with |x_i| ≤ halves[i]
+  polyhedron,
 };
 
 template <class S>
@@ -20,6 +23,7 @@ struct Outline {
   S radius = S(0.0);                  ///< m
   Vector3<S> axis = zeroVector<S>(),  ///< of a segment: a unit vector
       halves = zeroVector<S>();       ///< m
+  std::shared_ptr<const Polyhedron> polyhedron = nullptr;
 };
 
 /// Fixes the frame `to` of a shape to the frame that carries it.

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "mechanics/elements/segment_distance.hpp"
+#include "mechanics/polyhedron.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -49,6 +50,8 @@ struct Solid {
   static Solid cuboid(const Vector3<S>& halves);
   /// s `along`, |s| ≤ half
   static Solid segment(const Vector3<S>& along, const S& half);
+  explicit Solid(const Polyhedron& hull);
+  Solid() = default;
 
   bool isCuboid() const { return halves.size() == 3; }
   Segment<S> along(const Edge& edge) const {
@@ -63,6 +66,23 @@ struct Solid {
   /// Times the direction's length.
   Extent extent(const Vector3<S>& direction) const;
 };
+
+template <class S>
+Solid<S>::Solid(const Polyhedron& hull) : spread(hull.spread()) {
+  const auto vector = [](const Polyhedron::Direction& of) {
+    return Vector3<S>(constant<S>(of[0]), constant<S>(of[1]), constant<S>(of[2]));
+  };
+  for (const Polyhedron::Point& corner : hull.corners())
+    corners.push_back(vector({enclosureOf(corner[0]), enclosureOf(corner[1]), enclosureOf(corner[2])}));
+  for (const auto& direction : hull.directions()) directions.push_back(vector(direction));
+  for (const auto& normal : hull.normals()) normals.push_back(vector(normal));
+  for (const Polyhedron::Edge& edge : hull.edges())
+    edges.push_back({edge.from, edge.to, edge.direction, constant<S>(edge.half)});
+  for (const Polyhedron::Face& face : hull.faces()) {
+    faces.push_back({vector(face.normal), constant<S>(face.offset), {}});
+    for (const auto& side : face.sides) faces.back().sides.emplace_back(vector(side.normal), constant<S>(side.offset));
+  }
+}
 
 template <class S>
 Solid<S> Solid<S>::cuboid(const Vector3<S>& halves) {

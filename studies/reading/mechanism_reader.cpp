@@ -391,6 +391,18 @@ class MechanismReader {
       if (const toml::node* node = given(section_, word))
         reader_.readNumbers(*node, named(word), section_.nameOf(word.key), numbers, names, least, word.unit);
     }
+    void points(const Word& word, std::vector<ExpressionVector>& points) override {
+      const toml::node* node = given(section_, word);
+      if (node == nullptr) return;
+      const std::string what = section_.nameOf(word.key);
+      const toml::array* list = node->as_array();
+      if (list == nullptr || list->empty())
+        section_.source().fail(*node, fmt::format("'{}' is no list", what), "a list of points, [x, y, z] each");
+      points.clear();
+      for (std::size_t i = 0; i < list->size(); ++i)
+        reader_.readNumbers((*list)[i], fmt::format("{}.{}", named(word), i + 1), what,
+                            points.emplace_back(ExpressionVector{0.0, 0.0, 0.0}), components, 3, word.unit);
+    }
     void coordinate(const Word& position, Expression& initial, Coordinate /*kind*/, const Word& rate,
                     Expression& initialRate) override {
       this->position(position, initial);

@@ -86,6 +86,7 @@ Mechanism withOneOfEach() {
   m.add(Sphere{"ball", "E", 0.125});
   m.add(Capsule{"upright", "A", 0.25, 1.0, axisZ});
   m.add(Cuboid{"block", "inertial", {0.5, 0.5, 0.5}, {0.0, 3.0, 0.0}});
+  m.add(Hull{"wedge", "inertial", {{0.0, 3.0, 0.0}, {0.5, 3.0, 0.0}, {0.0, 3.5, 0.0}, {0.0, 3.0, 0.5}}});
   m.add(Separation{"apart", "upright", "ball"});
   m.setGravity({0.0, 0.0, -9.81});
   return m;

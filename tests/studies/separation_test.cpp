@@ -5,16 +5,23 @@
 #include <array>
 #include <string>
 
+#include "mechanics/assembly.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
 namespace {
 
+using ::testing::StartsWith;
+
 /// A pendulum with a rod about it; lengths in m, angles in degrees.
 std::string armText(const std::string& name, const std::string& from, const std::string& axis, const std::string& angle,
                     const std::string& length, const std::string& shape) {
-  const bool isBox = shape == "box";
+  const std::string sizes = shape == "box" ? R"(size = ["80 mm", "100 mm", ")" + length + "\"]"
+                            : shape == "hull"
+                                ? R"(points = [["-4 cm", 0, 0], ["4 cm", "-5 cm", 0], ["4 cm", "5 cm", 0],
+                                  [0, 0, "-40 cm"], [0, 0, "40 cm"]])"
+                                : R"(radius = "50 mm")" + (shape == "sphere" ? "" : "\nlength = \"" + length + "\"");
   return R"([[mechanism.element]]
     type = "revolute"
     name = ")" +
@@ -44,9 +51,8 @@ std::string armText(const std::string& name, const std::string& from, const std:
          name + R"(_rod"
     at = ")" +
          name + R"(_frame"
-    )" + (isBox ? R"(size = ["80 mm", "100 mm", ")" : R"(radius = "50 mm"
-    length = ")") +
-         length + (isBox ? "\"]" : "\"") + R"(
+    )" + sizes +
+         R"(
     centre = [0, 0, "-0.5 )" +
          length + R"("]
     )";
@@ -144,6 +150,51 @@ TEST_F(TwoArms, AreProvedNeverToComeCloser) {
   const Results met = judged("20 mm"), violated = judged("60 mm");
   EXPECT_EQ(met.requirements[0].word, Decision::met);
   EXPECT_EQ(violated.requirements[0].word, Decision::violated);
+}
+
+// ---- Hulls ----------------------------------------------------------------------------------------------------------
+
+std::string hullText(const std::string& points) {
+  return "[mechanism]\n[[mechanism.element]]\ntype = \"state\"\nname = \"x\"\nrate = 0\n"
+         "[[mechanism.element]]\ntype = \"hull\"\nname = \"wedge\"\nat = \"inertial\"\npoints = " +
+         points +
+         "\n[[mechanism.element]]\ntype = \"sphere\"\nname = \"ball\"\nat = \"inertial\"\nradius = \"5 cm\"\n"
+         "centre = [0, 0, 3]\n[[mechanism.element]]\ntype = \"separation\"\nname = \"gap\"\nfrom = \"wedge\"\n"
+         "to = \"ball\"\n";
+}
+
+TEST(HullText, IsAListOfPoints) {
+  const Mechanism m =
+      readMechanismText(hullText("[[0, 0, \"100 cm\"], [1, 0, 0], [0, \"1 m\", 0], [-1, -1, 0]]"), "s.toml");
+  EXPECT_DOUBLE_EQ(Assembly<double>(m).output("gap.distance"), 1.95);
+  const auto complaint = [](const std::string& points) -> std::string {
+    try {
+      readMechanismText(hullText(points), "s.toml");
+    } catch (const StudyError& error) {
+      return error.what();
+    }
+    return "it was read";
+  };
+  EXPECT_THAT(complaint("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [2, 1, 0]]"),
+              StartsWith("s.toml:10:10: the points of 'wedge' lie in one plane; expected 4 at least that do not"));
+  EXPECT_THAT(complaint("[[0, 0, 0], [1, 0, 0], [0, 1, 0]]"),
+              StartsWith("s.toml:10:10: the points of 'wedge' lie in one plane"));
+  EXPECT_THAT(complaint("[[0, 0, 0], [1, 0], [0, 1, 0], [0, 0, 1]]"),
+              StartsWith("s.toml:10:22: mechanism.element.points has 2 numbers"));
+  EXPECT_THAT(complaint("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, \"1 s\"]]"), StartsWith("s.toml:10:"));
+  EXPECT_THAT(complaint("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, \"height\"]]"), StartsWith("s.toml:10:"));
+  EXPECT_THAT(complaint("[]"), StartsWith("s.toml:10:10: 'mechanism.element.points' is no list; expected a list of"));
+  EXPECT_THAT(complaint("3"), StartsWith("s.toml:10:10: 'mechanism.element.points' is no list; expected a list of"));
+  std::string many = "[";
+  for (int i = 0; i < 41; ++i) many += "[" + std::to_string(i) + ", " + std::to_string(i * i) + ", 1], ";
+  EXPECT_THAT(complaint(many + "[0, 0, 0]]"), StartsWith("s.toml:10:10: 'wedge' has 42 points; expected 40 at most"));
+}
+
+TEST_F(TwoArms, OfHullsAreHeldApart) {
+  const Study study = twoArms("[0.3, 0.4, 0]", "\"x\"", "10 deg", "", {"hull", "sphere"});
+  const Results results = runOf(study);
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+  EXPECT_LE(results.comparison.maximum, 1.2);  // where an edge, and then a face, is nearest
 }
 
 }  // namespace

@@ -976,7 +976,7 @@ constexpr BadStudy badStudies[] = {
      "joint-stop, "
      "rigid-stop, plane-contact, "
      "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion, "
-     "sphere, capsule, box, separation)"},
+     "sphere, capsule, box, hull, separation)"},
     {"type = \"revolute\"", "",
      "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, screw, "
      "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, play, guide-play, "
@@ -984,7 +984,7 @@ constexpr BadStudy badStudies[] = {
      "joint-stop, "
      "rigid-stop, plane-contact, "
      "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion, "
-     "sphere, capsule, box, separation"},
+     "sphere, capsule, box, hull, separation"},
     {"axis = \"x\"", "axis = \"w\"",
      "s.toml:14:8: mechanism.element.axis is \"w\"; expected 'x'? (one of: x, y, z, -x, -y, -z)"},
     {"axis = \"x\"", "axis = [0, 0, 0]",
