@@ -7,8 +7,7 @@
 namespace gamut {
 
 void Cuboid::describe(Fields& f) {
-  f.frame({"at", "", "the frame that carries it"}, at);
-  f.movedFrame({"name", "", "the shape's own frame"}, name, at);
+  describeShape(f, name, at);
   f.numbers({"size", "m", "of its edges along x, y and z", true}, size, components, 3);
   f.vector({"centre", "m", "in `at`; its origin unless given"}, centre);
   f.rotations({"rotation", "rad", "of its edges against the axes of `at`: " + orientationForms}, rotation);

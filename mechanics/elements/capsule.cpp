@@ -6,8 +6,7 @@
 namespace gamut {
 
 void Capsule::describe(Fields& f) {
-  f.frame({"at", "", "the frame that carries it"}, at);
-  f.movedFrame({"name", "", "the shape's own frame"}, name, at);
+  describeShape(f, name, at);
   f.number({"radius", "m", "0, a segment, unless given"}, radius);
   f.number({"length", "m", "of the segment, from the centre of one end to that of the other", true}, length);
   f.axis({"axis", "", "of the segment, in `at`; `\"z\"` unless given"}, axis);
@@ -23,11 +22,8 @@ void Capsule::assemble(Assembler<S>& a) const {
 }
 
 std::vector<Fault> Capsule::faults(const RangeOf& rangeOf) const {
-  std::vector<Fault> found;
-  if (rangeOf(radius).lower() < 0)
-    found.push_back({"radius", "the radius of '" + name + "' is negative", "a radius of at least 0 m"});
-  if (rangeOf(length).lower() < 0)
-    found.push_back({"length", "the length of '" + name + "' is negative", "a length of at least 0 m"});
+  std::vector<Fault> found = faultsOfLength(rangeOf, radius, "radius", name);
+  for (Fault& fault : faultsOfLength(rangeOf, length, "length", name)) found.push_back(std::move(fault));
   return found;
 }
 

@@ -8,8 +8,7 @@
 namespace gamut {
 
 void Hull::describe(Fields& f) {
-  f.frame({"at", "", "the frame that carries it"}, at);
-  f.movedFrame({"name", "", "the shape's own frame"}, name, at);
+  describeShape(f, name, at);
   f.points({"points", "m",
             "4 to 40, from `centre`, numbers each: `[[0, 0, 0], [\"10 cm\", 0, 0], …]`; those inside "
             "the hull of the others count for nothing",
@@ -27,8 +26,7 @@ void Hull::assemble(Assembler<S>& a) const {
 }
 
 std::vector<Fault> Hull::faults(const RangeOf& rangeOf) const {
-  if (rangeOf(radius).lower() < 0)
-    return {{"radius", "the radius of '" + name + "' is negative", "a radius of at least 0 m"}};
+  if (std::vector<Fault> found = faultsOfLength(rangeOf, radius, "radius", name); !found.empty()) return found;
   const auto exact = exactPoints(points);
   if (!exact) return {{"points", "a point of '" + name + "' is no number", "lengths, such as 0.1 or \"10 cm\"", true}};
   if (exact->size() > Polyhedron::mostPoints)

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "mechanics/description/described.hpp"
 #include "mechanics/joint.hpp"
 #include "mechanics/polyhedron.hpp"
 
@@ -25,6 +26,19 @@ struct Outline {
       halves = zeroVector<S>();       ///< m
   std::shared_ptr<const Polyhedron> polyhedron = nullptr;
 };
+
+/// The words that all shapes begin with.
+inline void describeShape(Fields& f, std::string& name, std::string& at) {
+  f.frame({"at", "", "the frame that carries it"}, at);
+  f.movedFrame({"name", "", "the shape's own frame"}, name, at);
+}
+
+/// Of a length of the shape `name` that may be below zero.
+inline std::vector<Fault> faultsOfLength(const RangeOf& rangeOf, const Expression& length, const std::string& key,
+                                         const std::string& name) {
+  if (rangeOf(length).lower() >= 0) return {};
+  return {{key, "the " + key + " of '" + name + "' is negative", "a " + key + " of at least 0 m"}};
+}
 
 /// Fixes the frame `to` of a shape to the frame that carries it.
 template <class S>

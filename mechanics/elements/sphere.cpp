@@ -6,8 +6,7 @@
 namespace gamut {
 
 void Sphere::describe(Fields& f) {
-  f.frame({"at", "", "the frame that carries it"}, at);
-  f.movedFrame({"name", "", "the shape's own frame"}, name, at);
+  describeShape(f, name, at);
   f.number({"radius", "m", "0, a point, unless given"}, radius);
   f.vector({"centre", "m", "in `at`; its origin unless given"}, centre);
 }
@@ -20,8 +19,7 @@ void Sphere::assemble(Assembler<S>& a) const {
 }
 
 std::vector<Fault> Sphere::faults(const RangeOf& rangeOf) const {
-  if (rangeOf(radius).lower() >= 0) return {};
-  return {{"radius", "the radius of '" + name + "' is negative", "a radius of at least 0 m"}};
+  return faultsOfLength(rangeOf, radius, "radius", name);
 }
 
 GAMUT_ASSEMBLE(Sphere)
