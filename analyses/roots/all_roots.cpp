@@ -81,7 +81,7 @@ std::vector<double> unitsOf(const Box& region) {
 class Searcher {
  public:
   Searcher(const Program& f, const Box& region, const Box& parameters, const RootSearch& search)
-      : equations_(f, parameters, search.time, unitsOf(region)),
+      : equations_(f, parameters, search.time, unitsOf(region), search.also),
         region_(region),
         parameters_(parameters),
         search_(search),
@@ -361,7 +361,7 @@ class Searcher {
   }
 
   /// Where F varies most; if that is by a parameter that is as narrow as parameters become, states would be cut in
-  /// vain.
+  /// vain, unless one makes up much of what some outputs vary by.
   void cut(Cell cell, const std::vector<double>& xScore, const std::vector<double>& qScore) {
     int state = -1;
     for (int i = 0; i < n_; ++i)
@@ -371,7 +371,8 @@ class Searcher {
       const auto l = static_cast<std::size_t>(parameter - qScore.begin());
       if (canCutParameter(cell, l)) return cutParameter(cell, l);
       if (cutParameters(cell, qScore)) return;
-      return leave(std::move(cell), Why::narrow);
+      constexpr double much = 0.5;  // of one output, or of several together
+      if (state < 0 || xScore[state] < much) return leave(std::move(cell), Why::narrow);
     }
     if (state < 0) return leave(std::move(cell), Why::narrow);
     const auto [lower, upper] = bisect(cell.x[state]);
@@ -572,6 +573,8 @@ AllRoots allRoots(const Program& f, const Box& region, const Box& parameters, co
                                 std::to_string(f.states()) + " unknowns");
   requireCount("unknowns", f.states(), region.size());
   requireCount("parameters", f.parameters(), parameters.size());
+  if (search.also != nullptr && (search.also->states() != f.states() || search.also->parameters() != f.parameters()))
+    throw std::invalid_argument("roots: what holds at them besides is of other unknowns, or parameters");
   for (const Box& box : {region, parameters})
     for (const Interval& each : box)
       if (!isCommon(each)) throw std::invalid_argument("roots: " + toString(each) + " is not bounded");

@@ -84,6 +84,8 @@ struct RootSearch {
   double resolution = 0x1p-40;           ///< of the region's widths: narrower cells are not cut
   double parameterResolution = 0x1p-10;  ///< of the parameters' widths, likewise
   Interval time = 0.0;                   ///< for all t of it
+  const Program* also = nullptr;  ///< of the same unknowns and parameters: roots are meant where all of it is zero;
+                                  ///< it takes what is searched, not what is proved, so that others may be found too
   const std::atomic<bool>* cancelled = nullptr;
 };
 

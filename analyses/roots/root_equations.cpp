@@ -28,13 +28,13 @@ Box chosen(const Box& of, const std::vector<int>& numbers) {
 Program withStates(const Program& f, const Box& parameters) {
   const std::vector<int> wide = numbersOf(parameters, false), thin = numbersOf(parameters, true);
   const int n = f.states(), states = n + static_cast<int>(wide.size());
-  return record(states, static_cast<int>(thin.size()), n,
+  return record(states, static_cast<int>(thin.size()), f.outputs(),
                 [&](const auto& t, const auto& z, const auto& given, auto& y) {
                   std::vector<Recorded> p(parameters.size());
                   for (std::size_t l = 0; l < wide.size(); ++l) p[wide[l]] = z[n + l];
                   for (std::size_t l = 0; l < thin.size(); ++l) p[thin[l]] = given[l];
                   const std::vector<Recorded> values = written(f, {z.begin(), z.begin() + n}, p, t);
-                  for (int i = 0; i < n; ++i) y[i] = values[i];
+                  for (std::size_t i = 0; i < values.size(); ++i) y[i] = values[i];
                 });
 }
 
@@ -85,7 +85,16 @@ bool invert(std::vector<double>& a, int n) {
 
 }  // namespace
 
-RootEquations::RootEquations(const Program& f, const Box& parameters, const Interval& time, std::vector<double> units)
+struct RootEquations::Further {
+  Further(const Program& also, const Box& parameters, const Box& thin, const Interval& time)
+      : program(withStates(also, parameters)), consistency(program, thin, time) {}
+
+  Program program;
+  HullConsistency consistency;
+};
+
+RootEquations::RootEquations(const Program& f, const Box& parameters, const Interval& time, std::vector<double> units,
+                             const Program* also)
     : n_(f.states()),
       wide_(numbersOf(parameters, false)),
       thin_(chosen(parameters, numbersOf(parameters, true))),
@@ -106,6 +115,7 @@ RootEquations::RootEquations(const Program& f, const Box& parameters, const Inte
   values_.setParameters(thin_);
   all_.setParameters(thin_);
   doubles_.setParameters(numbers);
+  if (also != nullptr) further_ = std::make_unique<Further>(*also, parameters, thin_, time);
 }
 
 RootEquations::~RootEquations() = default;
@@ -119,6 +129,7 @@ const Box& RootEquations::joint(const Box& x, const Box& q) {
 bool RootEquations::contract(Box& x, const Box& q) {
   joint(x, q);
   if (!consistency_.contract(joint_)) return false;
+  if (further_ && !further_->consistency.contract(joint_)) return false;
   std::copy_n(joint_.begin(), n_, x.begin());
   return true;
 }

@@ -15,8 +15,9 @@ namespace gamut {
 
 class RootEquations {
  public:
-  /// `units`: widths of what is looked at, one a state.
-  RootEquations(const Program& f, const Box& parameters, const Interval& time, std::vector<double> units);
+  /// `units`: widths of what is looked at, one a state; `also`: what is zero at the roots that are meant, besides.
+  RootEquations(const Program& f, const Box& parameters, const Interval& time, std::vector<double> units,
+                const Program* also = nullptr);
   RootEquations(const RootEquations&) = delete;
   RootEquations& operator=(const RootEquations&) = delete;
   ~RootEquations();
@@ -25,7 +26,8 @@ class RootEquations {
   /// The numbers of the parameters that q holds.
   const std::vector<int>& wide() const { return wide_; }
 
-  /// What hull consistency leaves of x; false where that is nothing. `isTame`: as of HullConsistency, of what x was.
+  /// What hull consistency leaves of x, with what is zero besides; false where that is nothing. `isTame`: as of
+  /// HullConsistency, of what x was.
   bool contract(Box& x, const Box& q);
   bool isTame() const { return consistency_.isTame(); }
 
@@ -64,6 +66,7 @@ class RootEquations {
   Box moved(const Matrix& y, const Box& values, const Box& q);
   Box preconditioned(const Matrix& y) const;
   bool contracts(const Box& a, std::vector<double> r) const;
+  struct Further;
   struct Course;
   struct Bent;
   bool canBend();
@@ -82,6 +85,7 @@ class RootEquations {
   Interval time_;
   Program f_, derivative_;
   HullConsistency consistency_;
+  std::unique_ptr<Further> further_;
   Evaluator<Interval> values_, all_;
   Evaluator<double> doubles_;
   Box joint_, slopes_, value_;  // slopes_: F, then the rows of its derivatives

@@ -15,6 +15,7 @@
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/recorded.hpp"
+#include "tests/analyses/roots/six_joints.hpp"
 #include "tests/scalars/high_precision.hpp"
 
 namespace gamut {
@@ -22,6 +23,9 @@ namespace {
 
 using Number = testing::HighPrecision;
 using Point = std::vector<Number>;
+using testing::hand;
+using testing::posturesOf;
+using testing::Turn;
 using Why = UndecidedRoots::Why;
 
 bool holds(const Interval& x, const Number& value) { return Number(x.lower()) <= value && value <= Number(x.upper()); }
@@ -241,6 +245,29 @@ TEST(AllRoots, LeavesMultipleRootsUndecided) {
   const Number off = sqrt(1 - Number(1 - 0x1p-30));
   expectAll(allRoots(shifted(1 - 0x1p-30), line, {}), line, {}, {{1 - off}, {1 + off}});
   expectAll(allRoots(shifted(1 + 0x1p-30), line, {}), line, {}, {});
+}
+
+/// What is zero at the roots that are meant takes none of them, and what is searched.
+TEST(AllRoots, ThatAreMeantAreFoundByWhatHoldsBesides) {
+  const Number turn = 8 * atan(Number(1));
+  const auto ofAngle = [](auto g) {
+    return record(1, 1, 1, [g](auto, const auto& x, const auto& p, auto& y) { y[0] = g(x[0] - p[0]); });
+  };
+  const Program sine = ofAngle([](const auto&x) { return sin(x); }),
+                upright = ofAngle([](const auto&x) { return cos(x) - 1.0; });
+  const Box region{Interval(-7, 7)}, parameters{Interval(-0.1, 0.1)};
+  const AllRoots all = allRoots(sine, region, parameters),
+                 some = allRoots(sine, region, parameters, {.also = &upright});
+  for (const Point& p : pointsOf(parameters, 30)) {
+    const std::vector<Point> meant{{p[0] - turn}, {p[0]}, {p[0] + turn}};
+    expectNoneMissed(some, region, p, meant, Known::some);
+    std::vector<Point> exact = meant;
+    for (const int half : {-1, 1}) exact.push_back({p[0] + half * turn / 2});
+    expectAll(all, region, p, exact);
+  }
+  EXPECT_LT(some.cells, all.cells);
+  EXPECT_TRUE(some.undecided.empty());
+  EXPECT_THROW(allRoots(squareRoots(), {Interval(0, 1)}, {}, {.also = &upright}), std::invalid_argument);
 }
 
 TEST(AllRoots, ToldOfTheBorderAreNotDropped) {
@@ -481,63 +508,6 @@ TEST(AllRoots, OfThreeLinksAreBothElbows) {
       EXPECT_LT(found.cells, more ? 30000U : 1000U);
     }
   }
-}
-
-template <class S>
-struct Turn {
-  S w, x, y, z;
-  friend Turn operator*(const Turn& a, const Turn& b) {
-    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
-  }
-};
-
-/// Place of the wrist and turn of the hand of an arm like a PUMA: shoulder about z, upper arm and forearm about y,
-/// three axes z, y, z that meet in the wrist. Lengths p0 … p3 in m.
-template <class S>
-std::pair<std::array<S, 3>, Turn<S>> hand(const std::vector<S>& q, const std::vector<S>& p) {
-  using std::cos, std::sin;
-  const S both = q[1] + q[2];
-  const S reach = p[0] * cos(q[1]) + p[1] * cos(both) + p[2] * sin(both);
-  const S height = p[2] * cos(both) - p[0] * sin(q[1]) - p[1] * sin(both);
-  const auto aboutZ = [](const S& a) { return Turn<S>{cos(S(0.5) * a), S(0.0), S(0.0), sin(S(0.5) * a)}; };
-  const auto aboutY = [](const S& a) { return Turn<S>{cos(S(0.5) * a), S(0.0), sin(S(0.5) * a), S(0.0)}; };
-  return {{cos(q[0]) * reach - sin(q[0]) * p[3], sin(q[0]) * reach + cos(q[0]) * p[3], height},
-          aboutZ(q[0]) * aboutY(both) * aboutZ(q[3]) * aboutY(q[4]) * aboutZ(q[5])};
-}
-
-/// All 8 from one of them: the shoulder on either side, both elbows, the wrist turned over.
-std::vector<Point> posturesOf(const Point& p) {
-  const Number turn = 8 * atan(Number(1));
-  const auto wrapped = [&](const Number& angle) { return Number(angle - turn * round(angle / turn)); };
-  const Number px = p[4], py = p[5], pz = p[6];
-  const Turn<Number> goal{p[7], p[8], p[9], p[10]};
-  std::vector<Point> postures;
-  for (const int shoulder : {1, -1}) {
-    const Number reach = shoulder * sqrt(px * px + py * py - p[3] * p[3]);
-    const Number q0 = atan2(py, px) - atan2(p[3], reach);
-    // reach = a cos q1 + l cos(q1 + q2 - β), -height = a sin q1 + l sin(q1 + q2 - β), l² = p1² + p2², tan β = p2 / p1
-    const Number l = sqrt(p[1] * p[1] + p[2] * p[2]), beta = atan2(p[2], p[1]);
-    const Number c = (reach * reach + pz * pz - p[0] * p[0] - l * l) / (2 * p[0] * l);
-    for (const int elbow : {1, -1}) {
-      const Number bend = elbow * acos(c);
-      const Number q1 = atan2(-pz, reach) - atan2(l * sin(bend), p[0] + l * cos(bend)), q2 = bend + beta;
-      const auto half = [](const Number& a) { return std::pair{cos(a / 2), sin(a / 2)}; };
-      const auto [cy, sy] = half(-(q1 + q2));
-      const auto [cz, sz] = half(-q0);
-      const Turn<Number> rest = Turn<Number>{cy, 0, sy, 0} * Turn<Number>{cz, 0, 0, sz} * goal;
-      // aboutZ(a) aboutY(b) aboutZ(c) = (cos b/2 cos (a+c)/2, -sin b/2 sin (a-c)/2, sin b/2 cos (a-c)/2, cos b/2 sin
-      // ...)
-      const Number b = 2 * atan2(sqrt(rest.x * rest.x + rest.y * rest.y), sqrt(rest.w * rest.w + rest.z * rest.z));
-      const Number sum = atan2(rest.z, rest.w), difference = atan2(-rest.x, rest.y);
-      for (const int over : {1, -1}) {
-        const Number flip = over == 1 ? Number(0) : Number(turn / 2);
-        postures.push_back({wrapped(q0), wrapped(q1), wrapped(q2), wrapped(sum + difference + flip), over * b,
-                            wrapped(sum - difference + flip)});
-      }
-    }
-  }
-  return postures;
 }
 
 TEST(AllRoots, OfAnArmOfSixJointsAreItsEightPostures) {
