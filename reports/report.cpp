@@ -42,6 +42,7 @@ struct Section {
 constexpr Section sections[] = {{"Requirements", "demands", requirementsSection},
                                 {"What was asked", "asked", askedSection},
                                 {"The machine", "moving", machineSection},
+                                {"Workspace", "workspaces", workspaceSection},
                                 {"Figures", "numbers", figuresSection},
                                 {"Outputs", "outputs", outputsSection},
                                 {"Membership", "memberships", membershipSection},

@@ -144,6 +144,13 @@ class SchemaWriter final : public Settings {
               const std::function<void(const std::string&)>& /*take*/) override {
     add(key, {{"enum", words}});
   }
+  void text(const Key& key, std::string& /*value*/) override { add(key, {{"type", "string"}}); }
+  void texts(const Key& key, std::size_t least, std::size_t most, std::vector<std::string>& /*values*/) override {
+    add(key, {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", least}, {"maxItems", most}});
+  }
+  void ranges(const Key& key, NamedRanges& /*ranges*/) override {
+    add(key, {{"type", "object"}, {"additionalProperties", pairSchema()}});
+  }
   void table(const Key& key, const std::function<void(Settings&)>& describe) override {
     SchemaWriter within(longer_);
     describe(within);

@@ -8,11 +8,14 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "mechanics/description/units.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
@@ -36,6 +39,9 @@ struct NumberOf {
   bool allows(double value) const { return (isAbove ? value > least : value >= least) && value <= most; }
 };
 
+/// From one number to another, both in their units, by names.
+using NamedRanges = std::map<std::string, std::pair<Amount, Amount>>;
+
 /// What a visitor does with each kind of setting; unless it says so, what it does with any.
 class Settings {
  public:
@@ -56,6 +62,14 @@ class Settings {
                       const std::function<void(const std::string&)>& /*take*/) {
     any(key);
   }
+  /// A name, or so many.
+  virtual void text(const Key& key, std::string& /*value*/) { any(key); }
+  virtual void texts(const Key& key, std::size_t /*least*/, std::size_t /*most*/,
+                     std::vector<std::string>& /*values*/) {
+    any(key);
+  }
+  /// A table { NAME = [lower, upper] }.
+  virtual void ranges(const Key& key, NamedRanges& /*ranges*/) { any(key); }
   /// A table of settings.
   virtual void table(const Key& key, const std::function<void(Settings&)>& /*describe*/) { any(key); }
   /// What its reader reads for itself; `schema` is JSON Schema, or a word for a longer one: "distribution",

@@ -63,6 +63,9 @@ std::string askedSection(const Report& report);
 /// The machine, drawn, with the numbers that make it move; empty where there is none.
 std::string machineSection(const Report& report);
 
+/// The map of what outputs can reach; empty where nobody asked for it.
+std::string workspaceSection(const Report& report);
+
 /// One row an output: what the analyses found at the last time that all of them reached. Then what each of them cost.
 std::string figuresSection(const Report& report);
 

@@ -47,6 +47,35 @@ class SettingsReader final : public Settings {
     if (const toml::node* node = find(key)) take(source_.asChoice(*node, section_.nameOf(key.name), words));
   }
 
+  void text(const Key& key, std::string& value) override {
+    if (const toml::node* node = find(key)) value = source_.asText(*node, section_.nameOf(key.name));
+  }
+
+  void texts(const Key& key, std::size_t least, std::size_t most, std::vector<std::string>& values) override {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    const std::string name = section_.nameOf(key.name);
+    values.clear();
+    for (const toml::node& entry : source_.asArray(*node, name)) values.push_back(source_.asText(entry, name));
+    if (values.size() < least || values.size() > most)
+      source_.fail(*node, fmt::format("{} has {} entries", name, values.size()),
+                   least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most));
+  }
+
+  void ranges(const Key& key, NamedRanges& ranges) override {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    const std::string name = section_.nameOf(key.name);
+    ranges.clear();
+    for (const auto& [word, entry] : source_.asTable(*node, name)) {
+      const std::string own = fmt::format("{}.{}", name, word.str());
+      const toml::array& pair = source_.asArray(entry, own);
+      if (pair.size() != 2) source_.fail(entry, fmt::format("{} has {} entries", own, pair.size()), "[lower, upper]");
+      ranges[std::string(word.str())] = {source_.asAnyAmount(*pair.get(0), own),
+                                         source_.asAnyAmount(*pair.get(1), own)};
+    }
+  }
+
   void table(const Key& key, const std::function<void(Settings&)>& describe) override {
     const toml::node* node = find(key);
     if (node == nullptr) return;

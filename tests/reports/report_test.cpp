@@ -1,6 +1,7 @@
 // The page as text: nothing from elsewhere, nothing unescaped, guaranteed numbers outward, whatever is missing.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -18,6 +19,8 @@
 #include "reports/sections/contribution.hpp"
 #include "scalars/interval.hpp"
 #include "studies/analyses/equilibria.hpp"
+#include "studies/analyses/postures.hpp"
+#include "studies/analyses/workspace.hpp"
 #include "tests/reports/example_results.hpp"
 #include "tests/reports/page_text.hpp"
 #include "tests/studies/temporary_folder.hpp"
@@ -77,6 +80,60 @@ TEST(Report, ListsWhatIsFoundBesideTheAnswers) {
       renderReport(results),
       AllOf(HasSubstr("<h3>Also proved: equilibria</h3>"), HasSubstr("<li>1 position in the region, and no other"),
             HasSubstr("<li>unstable: slide&lt;1&gt;.displacement in [-0.5, -0.25], hinge.angle in [0.25, 0.25]")));
+}
+
+TEST(Report, TellsOfPostures) {
+  Results results = example::pendulum();
+  PosturesResult& found = results.of<PosturesResult>();
+  found.present = true;
+  found.goal = "tool<1> at target";
+  found.coordinates = "slide.displacement, hinge.angle";
+  found.coordinate = {1, 2};
+  found.number = {1, 2};
+  found.lower = Grid({2, 2}, {-0.5, 0.25, 0, 1});
+  found.upper = Grid({2, 2}, {-0.25, 0.25, 0, 1.5});
+  found.always = {1, 0};
+  EXPECT_THAT(
+      renderReport(results),
+      AllOf(HasSubstr("<h3>Also proved: postures</h3>"),
+            HasSubstr("<li>tool&lt;1&gt; at target: 2 postures in the region, and no other, but not for all values"),
+            HasSubstr("<li>1: slide.displacement in [-0.5, -0.25], hinge.angle in [0.25, 0.25]"),
+            HasSubstr("<li>2, for some values: slide.displacement in [0, 0], hinge.angle in [1, 1.5]")));
+}
+
+TEST(Report, DrawsTheMapOfAWorkspace) {
+  Results results = example::pendulum();
+  EXPECT_THAT(renderReport(results), Not(HasSubstr("<h2>Workspace</h2>")));
+  WorkspaceResult& found = results.of<WorkspaceResult>();
+  found.present = true;
+  found.first = "x<1>";
+  found.second = "y";
+  found.firstUnit = found.secondUnit = "m";
+  found.from = {0, 1, 2};
+  found.to = {1, 2, 3};
+  found.besideFrom = {0, 1};
+  found.besideTo = {1, 2};
+  found.reached = Grid({3, 2}, {1, 0, 1, -1, -1, -1});
+  found.least = 2;
+  found.most = 3;
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page,
+              AllOf(HasSubstr("<h2>Workspace</h2>"), HasSubstr("aria-label=\"Map of what x&lt;1&gt; and y can reach\""),
+                    HasSubstr("x&lt;1&gt; and y: 2 m² are reached for all values at least, 3 m² for any at most"),
+                    HasSubstr("of 6 cells: 2 reached, 3 not reached, 1 not settled")));
+  // One run of two cells that are reached, and one cell that is not settled.
+  const auto pathOf = [&](const std::string& kind) {
+    const std::size_t at = page.find("<path class=\"" + kind + "\"");
+    return page.substr(at, page.find("/>", at) - at);
+  };
+  EXPECT_EQ(std::ranges::count(pathOf("reach-always"), 'M'), 1);
+  EXPECT_EQ(std::ranges::count(pathOf("reach-open"), 'M'), 1);
+  found.second.clear();
+  found.besideFrom = {0};
+  found.besideTo = {1};
+  found.reached = Grid({3, 1}, {1, 0, -1});
+  EXPECT_THAT(renderReport(results),
+              HasSubstr("x&lt;1&gt;: 2 m are reached for all values at least, 3 m for any at most"));
 }
 
 TEST(Report, HasNoDigitsOfRounding) {

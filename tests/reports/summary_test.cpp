@@ -61,8 +61,8 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_THAT(keysOf(json),
               ElementsAre("advice", "alpha_cuts", "cost", "dependence", "derivatives", "distribution", "enclosure",
                           "envelope", "equilibria", "excursion", "files", "horizon", "integrated", "limits", "outputs",
-                          "overestimation", "reached", "requirements", "samples", "sensitivity", "shortfall",
-                          "statistics", "stopped", "tightness", "verdict", "version", "why"));
+                          "overestimation", "postures", "reached", "requirements", "samples", "sensitivity",
+                          "shortfall", "statistics", "stopped", "tightness", "verdict", "version", "why", "workspace"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("advice", "equations", "fuzzy", "interval", "memory", "report",
                                                 "requirements", "stochastic", "total"));

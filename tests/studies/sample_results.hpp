@@ -5,6 +5,8 @@
 
 #include "studies/analyses/derivatives.hpp"
 #include "studies/analyses/equilibria.hpp"
+#include "studies/analyses/postures.hpp"
+#include "studies/analyses/workspace.hpp"
 #include "studies/results/results.hpp"
 
 namespace gamut {
@@ -211,6 +213,32 @@ inline Results sampleResults() {
   equilibria.upper = Grid({3, 2}, {-0.5, 0, 0.25, 0.75, 1, 0.5});
   equilibria.stability = {1, -1, 0};
   equilibria.open = 1;
+  PosturesResult& postures = r.of<PosturesResult>();
+  postures.present = true;
+  postures.why = "1 part of the region is not settled";
+  postures.cpu = 0.125;
+  postures.goal = "tool at target";
+  postures.coordinates = "hinge.angle, slide.displacement";
+  postures.coordinate = {1, 2};
+  postures.number = {1, 2};
+  postures.lower = Grid({2, 2}, {-1, 0, 0, 0.5});
+  postures.upper = Grid({2, 2}, {-0.5, 0, 0.25, 0.75});
+  postures.always = {1, 0};
+  postures.open = 1;
+  WorkspaceResult& workspace = r.of<WorkspaceResult>();
+  workspace.present = true;
+  workspace.cpu = 0.25;
+  workspace.first = "angle";
+  workspace.second = "height";
+  workspace.firstUnit = "rad";
+  workspace.secondUnit = "m";
+  workspace.from = {0, 0.5};
+  workspace.to = {0.5, 1};
+  workspace.besideFrom = {-1, 0, 1};
+  workspace.besideTo = {0, 1, 2};
+  workspace.reached = Grid({2, 3}, {-1, 0, 1, 1, 1, -1});
+  workspace.least = 1.5;
+  workspace.most = 2;
   SurrogateResult& polynomials = r.surrogate;
   polynomials.present = true;
   polynomials.centre = {1};

@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "tests/scalars/high_precision.hpp"
-
 namespace gamut::testing {
 
 template <class S>
@@ -33,33 +31,33 @@ std::pair<std::array<S, 3>, Turn<S>> hand(const std::vector<S>& q, const std::ve
           aboutZ(q[0]) * aboutY(both) * aboutZ(q[3]) * aboutY(q[4]) * aboutZ(q[5])};
 }
 
-/// All 8 from one of them: the shoulder on either side, both elbows, the wrist turned over.
-inline std::vector<std::vector<HighPrecision>> posturesOf(const std::vector<HighPrecision>& p) {
-  const HighPrecision turn = 8 * atan(HighPrecision(1));
-  const auto wrapped = [&](const HighPrecision& angle) { return HighPrecision(angle - turn * round(angle / turn)); };
-  const HighPrecision px = p[4], py = p[5], pz = p[6];
-  const Turn<HighPrecision> goal{p[7], p[8], p[9], p[10]};
-  std::vector<std::vector<HighPrecision>> postures;
+/// All 8, of numbers of many digits: the shoulder on either side, both elbows, the wrist turned over.
+template <class N>
+std::vector<std::vector<N>> posturesOf(const std::vector<N>& p) {
+  const N turn = 8 * atan(N(1));
+  const auto wrapped = [&](const N& angle) { return N(angle - turn * round(angle / turn)); };
+  const N px = p[4], py = p[5], pz = p[6];
+  const Turn<N> goal{p[7], p[8], p[9], p[10]};
+  std::vector<std::vector<N>> postures;
   for (const int shoulder : {1, -1}) {
-    const HighPrecision reach = shoulder * sqrt(px * px + py * py - p[3] * p[3]);
-    const HighPrecision q0 = atan2(py, px) - atan2(p[3], reach);
+    const N reach = shoulder * sqrt(px * px + py * py - p[3] * p[3]);
+    const N q0 = atan2(py, px) - atan2(p[3], reach);
     // reach = a cos q1 + l cos(q1 + q2 - β), -height = a sin q1 + l sin(q1 + q2 - β), l² = p1² + p2², tan β = p2 / p1
-    const HighPrecision l = sqrt(p[1] * p[1] + p[2] * p[2]), beta = atan2(p[2], p[1]);
-    const HighPrecision c = (reach * reach + pz * pz - p[0] * p[0] - l * l) / (2 * p[0] * l);
+    const N l = sqrt(p[1] * p[1] + p[2] * p[2]), beta = atan2(p[2], p[1]);
+    const N c = (reach * reach + pz * pz - p[0] * p[0] - l * l) / (2 * p[0] * l);
     for (const int elbow : {1, -1}) {
-      const HighPrecision bend = elbow * acos(c);
-      const HighPrecision q1 = atan2(-pz, reach) - atan2(l * sin(bend), p[0] + l * cos(bend)), q2 = bend + beta;
-      const auto half = [](const HighPrecision& a) { return std::pair{cos(a / 2), sin(a / 2)}; };
+      const N bend = elbow * acos(c);
+      const N q1 = atan2(-pz, reach) - atan2(l * sin(bend), p[0] + l * cos(bend)), q2 = bend + beta;
+      const auto half = [](const N& a) { return std::pair{cos(a / 2), sin(a / 2)}; };
       const auto [cy, sy] = half(-(q1 + q2));
       const auto [cz, sz] = half(-q0);
-      const Turn<HighPrecision> rest = Turn<HighPrecision>{cy, 0, sy, 0} * Turn<HighPrecision>{cz, 0, 0, sz} * goal;
+      const Turn<N> rest = Turn<N>{cy, 0, sy, 0} * Turn<N>{cz, 0, 0, sz} * goal;
       // aboutZ(a) aboutY(b) aboutZ(c) = (cos b/2 cos (a+c)/2, -sin b/2 sin (a-c)/2, sin b/2 cos (a-c)/2, cos b/2 sin
       // ...)
-      const HighPrecision b =
-          2 * atan2(sqrt(rest.x * rest.x + rest.y * rest.y), sqrt(rest.w * rest.w + rest.z * rest.z));
-      const HighPrecision sum = atan2(rest.z, rest.w), difference = atan2(-rest.x, rest.y);
+      const N b = 2 * atan2(sqrt(rest.x * rest.x + rest.y * rest.y), sqrt(rest.w * rest.w + rest.z * rest.z));
+      const N sum = atan2(rest.z, rest.w), difference = atan2(-rest.x, rest.y);
       for (const int over : {1, -1}) {
-        const HighPrecision flip = over == 1 ? HighPrecision(0) : HighPrecision(turn / 2);
+        const N flip = over == 1 ? N(0) : N(turn / 2);
         postures.push_back({wrapped(q0), wrapped(q1), wrapped(q2), wrapped(sum + difference + flip), over * b,
                             wrapped(sum - difference + flip)});
       }
