@@ -10,7 +10,7 @@ namespace gamut {
 namespace {
 
 /// By more than reading rounds.
-const Interval outward(1 + 0x1p-50), inward(1 - 0x1p-50);
+const Interval slightlyMore(1 + 0x1p-50), slightlyLess(1 - 0x1p-50);
 
 /// From where to where it surely is.
 Interval between(const Interval& lower, const Interval& upper) {
@@ -44,7 +44,7 @@ std::optional<FurtherAnalysis::Refusal> refusalOf(const Mechanism& mechanism, co
 }  // namespace
 
 Interval turnAbout(double middle) {
-  const Interval half = pi() * outward;
+  const Interval half = pi() * slightlyMore;
   return hull(Interval(middle) - half, Interval(middle) + half);
 }
 
@@ -88,7 +88,7 @@ std::vector<CoordinateRegion::Side> CoordinateRegion::sides(const Mechanism& mec
     const std::optional<double>& half = isAngle(joint) ? angles_ : displacements_;
     Side side{names[i], turnAbout(midpoint(start)), {}, isAngle(joint) && !half};
     if (half) {
-      const Interval away = Interval(*half) * outward, near = Interval(*half) * inward;
+      const Interval away = Interval(*half) * slightlyMore, near = Interval(*half) * slightlyLess;
       side.range = hull(start - away, start + away);
       side.inner = between(start - near, start + near);
     }
@@ -101,7 +101,7 @@ std::vector<CoordinateRegion::Side> CoordinateRegion::sides(const Mechanism& mec
     constexpr double little = 1e-9;  // rad
     side.isTurn = side.isTurn || (isAngle(joint) && magnitude(Interval(width(side.range)) - twoPi()) < little);
     if (side.isTurn) {
-      const Interval middle(midpoint(side.range)), near = pi() * inward;
+      const Interval middle(midpoint(side.range)), near = pi() * slightlyLess;
       side.range = turnAbout(middle.lower());
       side.inner = between(middle - near, middle + near);
     }

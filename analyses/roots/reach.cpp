@@ -20,11 +20,9 @@
 namespace gamut {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+bool isBoundedRange(const Interval& x) { return isBounded(x) && !isEmpty(x); }
 
-bool isKnown(const Interval& x) { return isBounded(x) && !isEmpty(x); }
-
-std::vector<int> wideOf(const Box& parameters) {
+std::vector<int> wideNumbersOf(const Box& parameters) {
   std::vector<int> wide;
   for (std::size_t l = 0; l < parameters.size(); ++l)
     if (!isThin(parameters[l])) wide.push_back(static_cast<int>(l));
@@ -32,8 +30,8 @@ std::vector<int> wideOf(const Box& parameters) {
 }
 
 /// F of z = (x, y, p), where p are the parameters that are wide; the others are constants.
-Program equationsOf(const Program& f, std::size_t outputs, const Box& parameters) {
-  const std::vector<int> wide = wideOf(parameters);
+Program reachEquations(const Program& f, std::size_t outputs, const Box& parameters) {
+  const std::vector<int> wide = wideNumbersOf(parameters);
   const std::size_t n = f.states();
   return record(static_cast<int>(n + outputs + wide.size()), 0, f.outputs(),
                 [&](const auto& t, const auto& z, const auto&, auto& row) {
@@ -47,8 +45,8 @@ Program equationsOf(const Program& f, std::size_t outputs, const Box& parameters
 }
 
 /// The same for some of the states; the others, and y, are parameters ahead of p.
-Program equationsOf(const Program& f, std::size_t outputs, const std::vector<int>& some, const std::vector<int>& others,
-                    std::size_t parameters) {
+Program reachEquations(const Program& f, std::size_t outputs, const std::vector<int>& some,
+                       const std::vector<int>& others, std::size_t parameters) {
   return record(
       static_cast<int>(some.size()), static_cast<int>(outputs + others.size() + parameters), f.outputs(),
       [&](const auto& t, const auto& x, const auto& p, auto& row) {
@@ -61,15 +59,16 @@ Program equationsOf(const Program& f, std::size_t outputs, const std::vector<int
 }
 
 /// States that may come to a part of the grid, and where they would best be cut.
-struct Piece {
+struct ReachPiece {
   Box x;
   int cut = 0;
-  double spread = infinite;  ///< how many times the part of the grid, at most, outputs vary along `cut`
+  double spread = std::numeric_limits<double>::infinity();  ///< how many times the part of the grid, at most, outputs
+                                                            ///< vary along `cut`
 };
 
-class Searcher {
+class GridSearch {
  public:
-  Searcher(const Program& f, const Box& region, const Box& parameters, const Box& grid, const ReachSearch& search)
+  GridSearch(const Program& f, const Box& region, const Box& parameters, const Box& grid, const ReachSearch& search)
       : f_(f),
         region_(region),
         parameters_(parameters),
@@ -78,13 +77,13 @@ class Searcher {
         n_(region.size()),
         m_(grid.size()),
         rows_(f.outputs()),
-        equations_(equationsOf(f, grid.size(), parameters)),
+        equations_(reachEquations(f, grid.size(), parameters)),
         derivative_(forwardDifferentiated(equations_)),
         consistency_(equations_, {}, Interval(0.0)),
         values_(equations_),
         all_(derivative_),
         doubles_(derivative_) {
-    for (const int l : wideOf(parameters)) wide_.push_back(parameters[l]);
+    for (const int l : wideNumbersOf(parameters)) wide_.push_back(parameters[l]);
     size_ = n_ + m_ + wide_.size();
     slopes_.resize(derivative_.outputs());
     value_.resize(rows_);
@@ -93,7 +92,7 @@ class Searcher {
     std::vector<Interval> whole(rows_);
     values_(Interval(0.0), std::span<const Interval>(z), std::span<Interval>(whole));
     for (std::size_t i = 0; i < rows_; ++i)
-      scale_.push_back(i < m_ ? width(grid[i]) : isKnown(whole[i]) ? width(whole[i]) : 1.0);
+      scale_.push_back(i < m_ ? width(grid[i]) : isBoundedRange(whole[i]) ? width(whole[i]) : 1.0);
   }
 
   Reach find() {
@@ -131,7 +130,7 @@ class Searcher {
   /// Cells from `first` to before `last`, what may come there, and states that are known to come near.
   struct Part {
     std::vector<int> first, last;
-    std::vector<Piece> pieces;
+    std::vector<ReachPiece> pieces;
     std::vector<std::vector<double>> places = {};
 
     bool isCell() const {
@@ -203,7 +202,7 @@ class Searcher {
   }
 
   /// False where nothing of the piece comes to y.
-  bool contract(Piece& piece, const Box& y) {
+  bool contract(ReachPiece& piece, const Box& y) {
     constexpr int rounds = 3;
     constexpr double little = 0.8;  // of a width
     ++reach_.boxes;
@@ -231,9 +230,9 @@ class Searcher {
     for (const Interval& each : z) m.emplace_back(midpoint(each));
     values_(Interval(0.0), std::span<const Interval>(m), std::span<Interval>(value_));
     for (std::size_t i = rows_; i < slopes_.size(); ++i)
-      if (!isKnown(slopes_[i])) return true;
+      if (!isBoundedRange(slopes_[i])) return true;
     for (const Interval& each : value_)
-      if (!isKnown(each)) return true;
+      if (!isBoundedRange(each)) return true;
     std::vector<Interval> terms(size_), above(size_ + 1);
     for (const std::vector<double>& factors : factorsOf(z)) {
       Interval sum(0.0);
@@ -293,14 +292,14 @@ class Searcher {
   }
 
   /// Where it is best cut, by the last slopes.
-  void measure(Piece& piece, const Box& y, bool isTame) const {
+  void measure(ReachPiece& piece, const Box& y, bool isTame) const {
     piece.spread = 0;
     for (std::size_t j = 0; j < n_; ++j) {
       double spread = 0;
       const double w = width(piece.x[j]);
       for (std::size_t i = 0; i < rows_ && w > 0; ++i)
-        spread = std::max(spread, isTame && isKnown(slope(i, j)) ? magnitude(slope(i, j)) * w / unitOf(y, i)
-                                                                 : 0x1p40 * w / units_[j]);
+        spread = std::max(spread, isTame && isBoundedRange(slope(i, j)) ? magnitude(slope(i, j)) * w / unitOf(y, i)
+                                                                        : 0x1p40 * w / units_[j]);
       const double middle = midpoint(piece.x[j]);
       if (spread > piece.spread && piece.x[j].lower() < middle && middle < piece.x[j].upper())
         piece.spread = spread, piece.cut = static_cast<int>(j);
@@ -308,8 +307,8 @@ class Searcher {
   }
 
   void narrow(Part& part, const Box& y) {
-    std::vector<Piece> left;
-    for (Piece& piece : part.pieces)
+    std::vector<ReachPiece> left;
+    for (ReachPiece& piece : part.pieces)
       if (contract(piece, y)) left.push_back(std::move(piece));
     part.pieces = std::move(left);
   }
@@ -321,18 +320,18 @@ class Searcher {
     constexpr std::size_t enoughCuts = 64;
     constexpr double hardly = 0.02;
     std::size_t lost = 0;
-    const auto isLess = [](const Piece& a, const Piece& b) { return a.spread < b.spread; };
-    std::vector<Piece>& pieces = part.pieces;
+    const auto isLess = [](const ReachPiece& a, const ReachPiece& b) { return a.spread < b.spread; };
+    std::vector<ReachPiece>& pieces = part.pieces;
     std::ranges::make_heap(pieces, isLess);
     for (std::size_t cuts = 0; cuts < 4 * most && !pieces.empty() && pieces.size() < most; ++cuts) {
       if (pieces.front().spread <= enough) break;
       if (cuts >= enoughCuts && static_cast<double>(lost) < hardly * static_cast<double>(2 * cuts)) break;
       std::ranges::pop_heap(pieces, isLess);
-      const Piece piece = std::move(pieces.back());
+      const ReachPiece piece = std::move(pieces.back());
       pieces.pop_back();
       const auto [lower, upper] = bisect(piece.x[piece.cut]);
       for (const Interval& half : {lower, upper}) {
-        Piece cut{piece.x};
+        ReachPiece cut{piece.x};
         cut.x[piece.cut] = half;
         if (!contract(cut, y)) {
           ++lost;
@@ -479,7 +478,7 @@ class Searcher {
         a[i].push_back(values[rows_ + i * size_ + j] * room / unitOf(y, i));
       }
     std::vector<int> basis;
-    least = infinite;
+    least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < rows_; ++k) {
       std::size_t row = k, column = 0;
       for (std::size_t i = k; i < rows_; ++i)
@@ -515,7 +514,7 @@ class Searcher {
         parameters.push_back(region_[i]);
       }
     parameters.insert(parameters.end(), parameters_.begin(), parameters_.end());
-    found.equations = std::make_unique<RootEquations>(equationsOf(f_, m_, states, found.others, parameters_.size()),
+    found.equations = std::make_unique<RootEquations>(reachEquations(f_, m_, states, found.others, parameters_.size()),
                                                       parameters, Interval(0.0), units);
     return found;
   }
@@ -588,7 +587,7 @@ Reach reach(const Program& f, const Box& region, const Box& parameters, const Bo
   for (const Box* box : {&region, &parameters, &grid})
     for (const Interval& each : *box) require(isCommon(each), toString(each) + " is not bounded");
   for (const Interval& each : grid) require(width(each) > 0, "a grid of some width");
-  return Searcher(f, region, parameters, grid, search).find();
+  return GridSearch(f, region, parameters, grid, search).find();
 }
 
 Box outputsOver(const Program& f, std::size_t outputs, const Box& region, const Box& parameters, ReachSearch search) {

@@ -15,12 +15,12 @@ namespace gamut {
 namespace {
 
 /// Cells beside each other along the first output, of one kind.
-struct Run {
+struct CellRun {
   double from, to, besideFrom, besideTo, reached;
 };
 
-std::vector<Run> runsOf(const WorkspaceResult& workspace) {
-  std::vector<Run> runs;
+std::vector<CellRun> runsOf(const WorkspaceResult& workspace) {
+  std::vector<CellRun> runs;
   for (std::size_t j = 0; j < workspace.besideFrom.size(); ++j)
     for (std::size_t i = 0; i < workspace.from.size(); ++i) {
       const double reached = workspace.reached(i, j);
@@ -56,14 +56,14 @@ Frame frameOf(const WorkspaceResult& workspace) {
   return frame;
 }
 
-std::string drawn(const WorkspaceResult& workspace, const std::vector<Run>& runs, const std::string& label) {
+std::string drawn(const WorkspaceResult& workspace, const std::vector<CellRun>& runs, const std::string& label) {
   const Frame frame = frameOf(workspace);
   std::string svg = openedDrawing(frame.height, label, frame.width);
   drawHorizontalAxis(frame, headingOf(workspace.first, workspace.firstUnit), 8, svg);
   if (!workspace.second.empty()) drawVerticalAxis(frame, headingOf(workspace.second, workspace.secondUnit), 8, svg);
   for (const auto& [kind, name] : {std::pair{1.0, "reach-always"}, {0.0, "reach-open"}}) {
     Pen pen;
-    for (const Run& run : runs) {
+    for (const CellRun& run : runs) {
       if (run.reached != kind) continue;
       pen.lift();
       pen.go(frame.across(run.from), frame.down(run.besideFrom));
@@ -77,24 +77,24 @@ std::string drawn(const WorkspaceResult& workspace, const std::vector<Run>& runs
   return svg + "</svg>\n";
 }
 
-std::string numbersOf(const WorkspaceResult& workspace, const std::vector<Run>& runs) {
+std::string numbersOf(const WorkspaceResult& workspace, const std::vector<CellRun>& runs) {
   NumbersText numbers;
-  const auto column = [&](const std::string& head, const std::string& unit, double Run::*of) {
+  const auto column = [&](const std::string& head, const std::string& unit, double CellRun::*of) {
     std::vector<double> values;
-    for (const Run& run : runs) values.push_back(run.*of);
+    for (const CellRun& run : runs) values.push_back(run.*of);
     numbers.column(head, unit, values);
   };
-  column(workspace.first + " from", workspace.firstUnit, &Run::from);
-  column(workspace.first + " to", workspace.firstUnit, &Run::to);
+  column(workspace.first + " from", workspace.firstUnit, &CellRun::from);
+  column(workspace.first + " to", workspace.firstUnit, &CellRun::to);
   if (!workspace.second.empty()) {
-    column(workspace.second + " from", workspace.secondUnit, &Run::besideFrom);
-    column(workspace.second + " to", workspace.secondUnit, &Run::besideTo);
+    column(workspace.second + " from", workspace.secondUnit, &CellRun::besideFrom);
+    column(workspace.second + " to", workspace.secondUnit, &CellRun::besideTo);
   }
-  column("reached (1 always, -1 never, 0 not known)", "", &Run::reached);
+  column("reached (1 always, -1 never, 0 not known)", "", &CellRun::reached);
   return numbers.html();
 }
 
-std::string key(std::string_view name, std::string_view words) {
+std::string entry(std::string_view name, std::string_view words) {
   return fmt::format("<li><span class=\"swatch {}\"></span>{}</li>\n", name, words);
 }
 
@@ -103,13 +103,13 @@ std::string key(std::string_view name, std::string_view words) {
 std::string workspaceSection(const Report& report) {
   const WorkspaceResult& workspace = report.results.of<WorkspaceResult>();
   if (!workspace.present || workspace.reached.data.empty()) return {};
-  const std::vector<Run> runs = runsOf(workspace);
+  const std::vector<CellRun> runs = runsOf(workspace);
   const std::string what = workspace.second.empty() ? workspace.first : workspace.first + " and " + workspace.second;
   std::string words;
   for (const std::string& line : workspace.told()) words += fmt::format("<p>{}</p>\n", escapeHtml(line));
   return words + "<ul class=\"keys\" aria-label=\"Key to the map\">\n" +
-         key("reach-always", "reached, for all values of the uncertain quantities") +
-         key("reach-open", "reached for some of them, or not settled") + key("reach-never", "never reached") +
+         entry("reach-always", "reached, for all values of the uncertain quantities") +
+         entry("reach-open", "reached for some of them, or not settled") + entry("reach-never", "never reached") +
          "</ul>\n<figure class=\"kept\">" + drawn(workspace, runs, "Map of what " + what + " can reach") +
          "<figcaption>" + escapeHtml("what " + what + " can reach, proved cell by cell") + "</figcaption>" +
          numbersOf(workspace, runs) + "</figure>\n";

@@ -47,7 +47,7 @@ std::vector<Field> fieldsOf(PosturesResult& p) {
 }
 
 /// Those in which the mechanism's quantities are free, with their ranges.
-std::pair<std::vector<std::string>, Box> freeParametersOf(const Study& study) {
+std::pair<std::vector<std::string>, Box> freeQuantitiesOf(const Study& study) {
   std::pair<std::vector<std::string>, Box> free;
   for (const UncertainQuantity& each : study.uncertain)
     if (study.mechanism.isFreeParameter(each.quantity)) {
@@ -183,7 +183,7 @@ class PosturesAnalysis final : public AnalysisOf<PosturesAnalysis, PosturesResul
     try {
       requireCoordinates(mechanism, "postures");
       if (std::optional<Refusal> refusal = region_.refusal(mechanism, "postures")) return refusal;
-      const auto [names, ranges] = freeParametersOf(study);
+      const auto [names, ranges] = freeQuantitiesOf(study);
       postureEquations(mechanism, names, ranges, goal());
     } catch (const UnfitPart& unfit) {
       return Refusal{key, unfit.problem(), unfit.expected()};

@@ -26,7 +26,7 @@ struct WorkspaceResult final : FurtherPart {
   std::int64_t count(double kind) const;
 
   std::string_view key() const override { return "workspace"; }
-  std::string title() const override { return "workspace"; }
+  std::string title() const override { return "cells of the workspace"; }
   std::string_view verb() const override { return "proved"; }
   std::vector<std::string> told() const override;
   std::unique_ptr<FurtherPart> copy() const override { return std::make_unique<WorkspaceResult>(*this); }
