@@ -115,7 +115,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
     initialState_.push_back(parts_.number(initial));
     origin_.push_back(isDifference[origin_.size()] ? initialState_.back() : S(0.0));
   }
-  closeLoops(mechanism);
+  closeLoops(mechanism, freeParameters, values);
   // What is recorded is the motion from any state; at the initial one it may be singular.
   if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
 }
@@ -159,20 +159,29 @@ template <class S>
 std::vector<S> Assembly<S>::closingMap(std::span<const S> delta) {
   placeAtStart();
   const LinearSystem<S> rows = system_->dependentRows();
-  for (std::size_t i = 0; i < dependents_.size(); ++i)
-    *states_[dependents_[i]] = initialState_[dependents_[i]] + delta[i];
-  system_->doMotion(MotionLevel::position);
-  std::vector<S> image = system_->residuals();
+  std::vector<S> at;
+  for (std::size_t i = 0; i < dependents_.size(); ++i) at.push_back(initialState_[dependents_[i]] + delta[i]);
+  std::vector<S> image = rowsAtStart(at);
   rows.solve(image);
   for (std::size_t i = 0; i < image.size(); ++i) image[i] = delta[i] - image[i];
   return image;
 }
 
+template <class S>
+std::vector<S> Assembly<S>::rowsAtStart(std::span<const S> dependents) {
+  for (std::size_t i = 0; i < states_.size(); ++i) *states_[i] = initialState_[i];
+  for (std::size_t i = 0; i < dependents_.size(); ++i) *states_[dependents_[i]] = dependents[i];
+  system_->doMotion(MotionLevel::position);
+  return system_->residuals();
+}
+
 /// Newton's steps from the initial positions of dependent coordinates. Of doubles none turns by more than half a
 /// radian, until the loops are closed; of other scalars so many from there as tolerances of practice need, none where
-/// what is recorded has no free number in the rows.
+/// what is recorded has no free number in the rows, and one from where loops are known to close nearly: each lets what
+/// bounds leave open grow by the condition of the rows.
 template <class S>
-void Assembly<S>::closeLoops(const Mechanism& mechanism) {
+void Assembly<S>::closeLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                             std::span<const S> values) {
   if (dependents_.empty()) return;
   findTriangles(mechanism);
   const auto openingAt = [&](const std::vector<S>& positions) {
@@ -227,7 +236,13 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism) {
     int steps = 4;
     if constexpr (std::is_same_v<S, Recorded>) {
       openingAt(at);
-      if (!dependOn(system_->residuals(), [](const Node& node) { return node.op == Op::parameter; })) steps = 0;
+      if (!dependOn(system_->residuals(), [](const Node& node) { return node.op == Op::parameter; })) {
+        steps = 0;
+      } else if (const Program* offsets = mechanism.closesNear(freeParameters)) {
+        const std::vector<Recorded> by = written(*offsets, {}, {values.begin(), values.end()}, Recorded(0.0));
+        for (std::size_t i = 0; i < at.size(); ++i) at[i] = at[i] + by[i];
+        steps = 1;
+      }
     }
     for (int i = 0; i < steps; ++i) at = moved(at, openingAt(at), 1);
     for (std::size_t i = 0; i < at.size(); ++i) initialState_[dependents_[i]] = origin_[dependents_[i]] = at[i];

@@ -68,6 +68,8 @@ class Assembly {
   /// Newton's map at the start, about where the dependent coordinates are: δ − J⁻¹ g(. + δ), J at δ = 0. Its fixed
   /// points are what the loops are closed at.
   std::vector<S> closingMap(std::span<const S> delta);
+  /// The loops' rows at the start, dependent coordinates being there.
+  std::vector<S> rowsAtStart(std::span<const S> dependents);
 
   /// The rows of motion R(v, v̇, v̈) of v = [q; z; λ], all numbers of which are free: of each coordinate its generalised
   /// force, inertia and multipliers λ of the loops included; of each own state by what its rate exceeds ż; the loops'
@@ -93,7 +95,8 @@ class Assembly {
   std::vector<S> withOrigin(std::span<const S> x) const;
   void setUnfolded(std::vector<S> states, const std::vector<S>& signs, const S& time, bool isSmooth = false);
   void unfoldEnds(const Mechanism& mechanism);
-  void closeLoops(const Mechanism& mechanism);
+  void closeLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                  std::span<const S> values);
   void findTriangles(const Mechanism& mechanism);
   void placeTriangles();
   void releaseTriangles();

@@ -84,6 +84,31 @@ Program recordClosing(const Mechanism& mechanism, const std::vector<std::string>
                 });
 }
 
+Program recordApproach(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
+  Assembly<double> nominal(mechanism);
+  const LinearSystem<double> rows = nominal.system().dependentRows();
+  const std::vector<std::string> names = mechanism.stateNames();
+  const std::size_t n = mechanism.dependents().size();
+  std::vector<double> start;
+  std::vector<std::vector<double>> inverse(n, std::vector<double>(n, 0.0));  // column by column
+  for (std::size_t i = 0; i < n; ++i) {
+    start.push_back(nominal.initialState()[std::ranges::find(names, mechanism.dependents()[i]) - names.begin()]);
+    inverse[i][i] = 1;
+    rows.solve(inverse[i]);
+  }
+  return record(static_cast<int>(n), static_cast<int>(freeParameters.size()), static_cast<int>(n),
+                [&](auto, const auto& delta, const auto& p, auto& y) {
+                  std::vector<Recorded> at;
+                  for (std::size_t i = 0; i < n; ++i) at.push_back(start[i] + delta[i]);
+                  const std::vector<Recorded> open = Assembly<Recorded>(mechanism, freeParameters, p).rowsAtStart(at);
+                  for (std::size_t i = 0; i < n; ++i) {
+                    y[i] = delta[i];
+                    for (std::size_t j = 0; j < n; ++j)
+                      if (inverse[j][i] != 0) y[i] = y[i] - inverse[j][i] * open[j];
+                  }
+                });
+}
+
 Program recordLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
   const int states = static_cast<int>(mechanism.stateNames().size());
   return record(states, static_cast<int>(freeParameters.size()), static_cast<int>(mechanism.dependents().size()),

@@ -30,6 +30,11 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
 /// coordinate, and of the named parameters.
 Program recordClosing(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
 
+/// A step towards where loops close at the start, of n differences from where those of the nominal machine do, as
+/// states, and of the named parameters: δ − J⁻¹ g(. + δ), J the nominal machine's in doubles. Each step finds one more
+/// power of the parameters.
+Program recordApproach(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
+
 /// The rows g of all loops, of the states (themselves, not differences) and of the named parameters.
 Program recordLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
 

@@ -202,9 +202,27 @@ void takeNumbers(Machine& machine) {
   }
 }
 
+/// Before anything is recorded: polynomials of the free parameters that come near to where loops close, unless that
+/// they do is proved only with Newton's steps from the nominal position. What is left open, where it is proved.
+Box approachLoops(Machine& machine) {
+  if (machine.rest || !machine.study.mechanism.isClosed() || machine.freeParameters.empty()) return {};
+  Mechanism& mechanism = machine.study.mechanism;
+  const std::vector<std::string>& names = machine.freeParameters;
+  const Box parameters(machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end());
+  try {
+    const Program step = recordApproach(mechanism, names);
+    mechanism.closeNear(names, std::make_shared<const Program>(approached(step, parameters)));
+    Box open = proveRoots(recordClosing(mechanism, names), parameters, static_cast<int>(names.size())).remainder;
+    if (open.empty()) mechanism.closeNear({}, nullptr);
+    return open;
+  } catch (...) {
+    refuseMechanism(machine.study);
+  }
+}
+
 /// Dependent coordinates start at what is left between Newton's steps and the closed loops, for all values of the box;
-/// at rest all numbers are of this kind.
-void closeFamilies(Machine& machine) {
+/// at rest all numbers are of this kind. `open`: what that is, where it is known already.
+void closeFamilies(Machine& machine, const Box& open) {
   const Mechanism& mechanism = machine.study.mechanism;
   if (machine.rest) {
     machine.closing = machine.rest->families();
@@ -216,7 +234,8 @@ void closeFamilies(Machine& machine) {
     for (const std::string& dependent : mechanism.dependents())
       machine.remainders.push_back(static_cast<int>(std::ranges::find(names, dependent) - names.begin()));
   }
-  machine.box = machine.closed(std::move(machine.box));
+  if (open.empty()) machine.box = machine.closed(std::move(machine.box));
+  for (std::size_t i = 0; i < open.size(); ++i) machine.box[machine.remainders[i]] = open[i];
   for (const int slot : machine.remainders) machine.motion.nominal[slot] = midpoint(machine.box[slot]);
 }
 
@@ -288,10 +307,11 @@ Motion recordedMotion(const Study& study, const Rest* rest) {
 Machine::Machine(Study of) : study(std::move(of)), freeParameters(freeParametersOf(study)) {
   const double start = processCpuSeconds();
   rest = restOf(study);
+  takeNumbers(*this);
+  const Box open = approachLoops(*this);
   motion.motion = recordedMotion(study, rest.get());
   if (rest) sampled = outputsAtRest(study, *rest, freeParameters);
-  takeNumbers(*this);
-  closeFamilies(*this);
+  closeFamilies(*this, open);
   cpu = processCpuSeconds() - start;
   takeCourses(*this);
   takeLevels(*this);

@@ -143,6 +143,10 @@ class Prover {
     return delta;
   }
 
+  Box imageAt0(const Box& part, int degree) const {
+    return encloseImage(newton_, 0.0, joined(Box(n_, Interval(0.0)), part), {}, degree, nullptr, narrow_)[0];
+  }
+
   /// ∂φ/∂δ row by row, for all δ of this box; without a degree, δ are symbols too.
   Box slopesOn(const Box& delta, const Box& part, int degree) const {
     const Box all =
@@ -164,8 +168,10 @@ class Prover {
 
   /// Nothing where it is not proved.
   std::optional<Part> prove(const Box& part) {
-    const Box at0 = encloseImage(newton_, 0.0, joined(Box(n_, Interval(0.0)), part), {},
-                                 degreeOf(part, quantities_, mostMonomials), nullptr, narrow_)[0];
+    constexpr int low = 4;  // is enough of narrow tolerances
+    const int high = degreeOf(part, quantities_, mostMonomials);
+    Box at0 = imageAt0(part, std::min(low, high));
+    if (high > low && (!isKnown(at0) || largestOf(at0) > enough_)) at0 = imageAt0(part, high);
     if (!isKnown(at0)) return {};
     std::vector<double> r = radii_;
     const auto widen = [&](const Box& image) {  // what is 0 gets room to map into too
@@ -234,6 +240,20 @@ RootFamily proveRoots(const Program& newton, const Box& parameters, int quantiti
 
 Program approximated(const Program& steps, const Box& parameters) {
   return recordPolynomials(steps, parameters, degreeOf(parameters, steps.parameters(), mostMonomials));
+}
+
+Program approached(const Program& step, const Box& parameters) {
+  constexpr int highest = 6;
+  const int k = step.parameters(), degree = std::min(degreeOf(parameters, k, mostMonomials), highest);
+  Program at = record(0, k, step.outputs(), [](auto, const auto&, const auto&, auto&) {});
+  for (int power = 1; power <= degree; ++power) {
+    const Program next = record(0, k, step.outputs(), [&](auto t, const auto&, const auto& p, auto& y) {
+      const std::vector<Recorded> all(p.begin(), p.end());
+      std::ranges::copy(written(step, written(at, {}, all, t), all, t), y.begin());
+    });
+    at = recordPolynomials(next, parameters, power);
+  }
+  return at;
 }
 
 }  // namespace gamut

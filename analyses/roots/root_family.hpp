@@ -28,4 +28,8 @@ RootFamily proveRoots(const Program& newton, const Box& parameters, int quantiti
 /// goes, but each lets errors of polynomials grow that bound it.
 Program approximated(const Program& steps, const Box& parameters);
 
+/// The same by one `step` over and over, of n states and of parameters, from states of zero: a step that finds one more
+/// power of the parameters each time, as Newton's with the slopes of the middle does.
+Program approached(const Program& step, const Box& parameters);
+
 }  // namespace gamut

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +28,8 @@
 #include "scalars/interval.hpp"
 
 namespace gamut {
+
+class Program;
 
 /// A number of a mechanism whose formula does not fit; the problem begins with "'NUMBER': ".
 class WrongNumber : public UnitError {
@@ -152,6 +155,15 @@ class Mechanism {
     bool isChosen;  ///< by structure, not by name
   };
   const std::vector<Closed>& loops() const { return loops_; }
+  /// Where the loops nearly close at the start: what dependent coordinates differ by from those of the nominal machine,
+  /// of the values of these free parameters. Recorded machines begin Newton's steps there.
+  void closeNear(std::vector<std::string> freeParameters, std::shared_ptr<const Program> offsets) {
+    nearby_ = {std::move(freeParameters), std::move(offsets)};
+  }
+  /// Null where nothing is known for these.
+  const Program* closesNear(const std::vector<std::string>& freeParameters) const {
+    return nearby_.freeParameters == freeParameters ? nearby_.offsets.get() : nullptr;
+  }
   /// Of these quantities, those that motion is recorded with as free parameters: what is no initial value, and, of what
   /// closes on itself, initial positions, which those of dependent coordinates follow from.
   bool isFreeParameter(const std::string& quantity) const;
@@ -265,6 +277,11 @@ class Mechanism {
   std::vector<Following> followings_;
   std::vector<std::string> dependents_;  // coordinates
   std::vector<Closed> loops_;
+  struct Nearby {
+    std::vector<std::string> freeParameters;
+    std::shared_ptr<const Program> offsets;
+  };
+  Nearby nearby_;
   std::unordered_map<std::string, std::string> struck_;  // coordinates that strike a rigid end: its element
   Named<Measured> measured_;
   std::vector<Length> lengths_;
