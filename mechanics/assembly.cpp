@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/refusal.hpp"
+#include "mechanics/equations/loop_rows.hpp"
 
 namespace gamut {
 namespace {
@@ -38,13 +40,27 @@ bool dependOn(const std::vector<Recorded>& values, Is is) {
   return false;
 }
 
-[[noreturn]] void refuseOpen(const Mechanism& mechanism, bool isFar) {
+/// `at`: where they close after all, at a dead point of the coordinates by which they do.
+[[noreturn]] void refuseOpen(const Mechanism& mechanism, bool isFar, const std::optional<LoopGrip>& at) {
   std::string loops, by;
   for (const Mechanism::Closed& loop : mechanism.loops()) {
     loops += (loops.empty() ? "'" : "', '") + loop.element;
     for (const std::string& name : loop.by) by += (by.empty() ? "" : ", ") + name;
   }
   const bool isOne = mechanism.loops().size() == 1;
+  if (at && at->best.empty())
+    throw UnfitPart(mechanism.loops().front().element,
+                    (isOne ? "the loop " : "the loops ") + loops + (isOne ? "' starts" : "' start") +
+                        " where its rows depend on each other, so that nothing follows from the other coordinates",
+                    "a closure that holds less (`pin` in planar loops), or another initial position");
+  if (at) {
+    std::string best;
+    for (const std::string& name : at->best) best += (best.empty() ? "\"" : ", \"") + name + "\"";
+    throw UnfitPart(mechanism.loops().front().element,
+                    (isOne ? "the loop " : "the loops ") + loops + (isOne ? "' starts" : "' start") +
+                        " at a dead point of " + by + ", which cannot follow from the others there",
+                    "others in `dependent`, such as [" + best + "], or another initial position");
+  }
   throw UnfitPart(
       mechanism.loops().front().element,
       (isOne ? "the loop " : "the loops ") + loops + "' cannot be closed by " + by +
@@ -225,7 +241,11 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism, const std::vector<std::
       by = std::move(rest);
     }
     by = openingAt(at);
-    if (!(size(by) < closed)) refuseOpen(mechanism, size(by) == size(by));
+    constexpr double dead = 1e-6;
+    const LoopGrip grip = gripOfLoops(mechanism, *system_);
+    const bool isClosed = size(system_->residuals()) < closed * jacobianOfLoops(*system_).cwiseAbs().maxCoeff();
+    if (!(size(by) < closed) || grip.share < dead)
+      refuseOpen(mechanism, size(by) == size(by), isClosed ? std::optional(grip) : std::nullopt);
     for (Loop& loop : loops_)
       if (loop.triangle && !loop.triangle->given().empty()) loop.side = loop.triangle->side();
   } else {

@@ -151,6 +151,7 @@ void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std:
         record(1, static_cast<int>(parameters.size()), [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
     motion.g = recordedOf(study, rest, outputs.size(), outputsOf);
   } else if (study.moves()) {
+    refuseMasslessLoops(study);
     motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
     motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
     motion.g = recordOutputs(study.mechanism, parameters, outputs);

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstddef>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/description/refusal.hpp"
+#include "mechanics/equations/loop_rows.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/recorded.hpp"
 #include "studies/printable.hpp"
@@ -51,12 +53,14 @@ void refuseNumberWithoutValue(const Study& study) {
     }
 }
 
-/// By Cholesky's factors of the inertia matrix at the start: the first speed that moves all inertia as others before it
-/// do together, and the share of each in that; none where there is no such speed.
-std::vector<double> sharesOfFirstAlike(const Study& study) {
+/// By Cholesky's factors of the inertia matrix at the start, of independent speeds where loops close: the first speed
+/// that moves all inertia as others before it do together, and the share of each in that; none where there is no such
+/// speed.
+std::optional<std::vector<double>> sharesOfFirstAlike(const Study& study) {
   constexpr double nothing = 1e-10;  // of an entry of the diagonal
   Assembly<double> assembly(study.mechanism);
-  const auto inertia = assembly.system().inertiaMatrix();
+  System<double>& system = assembly.system();
+  const auto inertia = system.dependents() > 0 ? inertiaAlongLoops(system) : system.inertiaMatrix();
   const auto n = static_cast<std::size_t>(inertia.rows());
   std::vector<std::vector<double>> factor(n, std::vector<double>(n, 0.0));
   const auto entry = [&](std::size_t i, std::size_t j) {
@@ -80,7 +84,7 @@ std::vector<double> sharesOfFirstAlike(const Study& study) {
     }
     return share;
   }
-  return {};
+  return std::nullopt;
 }
 
 /// Where a motion is not determined, this is why.
@@ -88,15 +92,21 @@ void refuseJointsAlike(const Study& study) {
   constexpr double some = 1e-6;  // of a factor
   if (study.analysis != Study::Analysis::dynamics) return;
   const Mechanism& m = study.mechanism;
-  const std::vector<double> share = sharesOfFirstAlike(study);
+  const std::optional<std::vector<double>> found = sharesOfFirstAlike(study);
+  if (!found) return;
+  const std::vector<double>& share = *found;
   const auto name = [&](std::size_t i) { return m.stateNames()[m.positions() + i]; };
   std::string others;
   for (std::size_t i = 0; i < share.size(); ++i)
     if (std::abs(share[i]) > some) others += fmt::format("{}'{}'", others.empty() ? "" : ", ", name(i));
-  if (others.empty()) return;
   const std::string alike = name(share.size());
   const Mechanism::JointCoordinate* coordinate = m.coordinateWith(alike);
-  refuse(study.places.of(coordinate == nullptr ? alike : coordinate->element),
+  const std::string place = study.places.of(coordinate == nullptr ? alike : coordinate->element);
+  if (others.empty() && m.isClosed())
+    refuse(place, fmt::format("'{}' moves no mass, nor does what closes loops with it", alike),
+           "a mass at a frame that it moves");
+  if (others.empty()) return;
+  refuse(place,
          fmt::format("'{}' moves all masses as {} {}, so that the motion is not determined", alike, others,
                      others.find(',') == std::string::npos ? "does" : "do together"),
          "joints that move masses in different ways (hinges on one axis turn what is between them, which needs "
@@ -150,6 +160,11 @@ void refuseVaryingLoops(const Study& study, const std::vector<std::string>& free
              fmt::format("'{}' varies in time, but where a loop is closed follows from it", uncertain.quantity),
              "a quantity that is constant, or one that no loop follows from, such as a mass or a force");
   }
+}
+
+void refuseMasslessLoops(const Study& study) {
+  if (study.mechanism.isClosed() && study.analysis == Study::Analysis::dynamics && !study.isMotionGiven())
+    refuseJointsAlike(study);
 }
 
 void refuseMechanism(const Study& study) try { throw; } catch (const UndefinedOutput& error) {

@@ -13,6 +13,9 @@ namespace gamut {
 /// that exception again.
 [[noreturn]] void refuseMechanism(const Study& study);
 
+/// Throws a StudyError if in a mechanism whose loops close a joint, or several together, move no mass at the start.
+void refuseMasslessLoops(const Study& study);
+
 /// Throws a StudyError: loops are not proved to close for values of the free parameters in a part of their box.
 [[noreturn]] void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part);
 

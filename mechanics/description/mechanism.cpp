@@ -465,7 +465,9 @@ class Mechanism::Checker final : public Fields {
       refuse("the loop " + inQuotes(element_) + " is closed by " + needed + ", but " +
                  (isChosen ? "between its frames " + std::to_string(names.size()) + " may follow from others"
                            : std::to_string(names.size()) + (names.size() == 1 ? " is named" : " are named")),
-             isChosen ? "a loop with so many joints that move freely" : needed);
+             isChosen ? "a loop with so many joints that move freely, balls and free bodies not counted, or a closure "
+                        "that holds less (`pin` in planar loops)"
+                      : needed);
     names.erase(names.begin(), names.end() - static_cast<std::ptrdiff_t>(loop.rows));
     for (std::string& name : names) {
       found(name);
@@ -537,6 +539,12 @@ const Mechanism::JointCoordinate& Mechanism::coordinate(const std::string& name,
   if (own != coordinatesOf_.end() && own->second.size() == 1) return *coordinates_.find(own->second.front());
   if (own != coordinatesOf_.end())
     throw UnknownName("joint with one coordinate", name, own->second, "for " + inQuotes(of));
+  for (const Moved& moved : moved_)
+    if (moved.isByJoint && own == coordinatesOf_.end() && !coordinatesOf_.contains(moved.element) &&
+        (name == moved.element || name.starts_with(moved.element + ".")))
+      refuse("the joint " + inQuotes(moved.element) + " has no coordinates for " + inQuotes(of) +
+                 ", as the turns of a ball are none",
+             "hinges one behind the other in its place, or another joint");
   std::vector<std::string> names;
   for (const JointCoordinate& coordinate : coordinates_)
     names.push_back(coordinatesOf_.at(coordinate.element).size() == 1 ? coordinate.element : coordinate.name);

@@ -50,12 +50,18 @@ void Closure::describe(Fields& f) {
        "stays in the plane across the axis. `ball` unless given"},
       as, words);
   f.axis({"axis", "", "in `from`; `\"z\"` unless given"}, axis);
-  f.axis({"to_axis", "", "the same axis in `to`; `\"z\"` unless given"}, toAxis);
+  f.axis({"to_axis", "", "of a `hinge` and a `cylinder`: the same axis in `to`; `\"z\"` unless given"}, toAxis);
   f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, heldAs(as).rows()});
   for (const char* component : components)
     f.measureSolved({std::string("force.") + component, "N", "what it does to `to`, in inertial axes"});
   for (const char* component : components)
     f.measureSolved({std::string("moment.") + component, "N m", "the same about the point of `to`"});
+}
+
+std::vector<Fault> Closure::faults(const RangeOf& /*rangeOf*/) const {
+  if (heldAs(as).parallel || toAxis.direction() == axisZ.direction()) return {};
+  return {{"to_axis", "'" + name + "' is a " + as + ", which holds no axis of `to`",
+           "none, or `hinge` or `cylinder`, which hold the axes together"}};
 }
 
 template <class S>

@@ -18,6 +18,7 @@ struct Closure {
   std::vector<std::string> dependent;
 
   void describe(Fields& f);
+  std::vector<Fault> faults(const RangeOf& rangeOf) const;
   template <class S>
   void assemble(Assembler<S>& a) const;
 };

@@ -8,6 +8,7 @@
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/description/refusal.hpp"
+#include "mechanics/equations/loop_rows.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "tests/mechanics/four_bar.hpp"
@@ -141,6 +142,23 @@ TEST(ClosedLoops, HoldAPointByARod) {
   EXPECT_NEAR(assembly.output("rod.force"), -1.5 * (10 * std::cos(0.5) + 2 * 1.5 * 1.5), 1e-13);
   EXPECT_NEAR(assembly.output("across.acceleration"), 2 * (-std::cos(0.5) * 5 * std::sin(0.5) - std::sin(0.5) * 2.25),
               1e-13);
+}
+
+TEST(ClosedLoops, FeelTheInertiaOfAllThatMoves) {
+  Assembly<double> assembly(testing::fourBar(pinned()));
+  const double energy = assembly.output("energy.kinetic");
+  const Eigen::MatrixXd inertia = inertiaAlongLoops(assembly.system());
+  ASSERT_EQ(inertia.size(), 1);
+  EXPECT_NEAR(inertia(0, 0), 2 * energy / (4 * 4), 1e-13);
+}
+
+/// No dead point of coupler and rocker is near.
+TEST(ClosedLoops, AreHeldFirmlyByCouplerAndRocker) {
+  const Mechanism m = testing::fourBar(pinned());
+  Assembly<double> assembly(m);
+  const LoopGrip grip = gripOfLoops(m, assembly.system());
+  EXPECT_GT(grip.share, 0.5);
+  EXPECT_EQ(grip.best.size(), 2U);
 }
 
 /// The three rows of a ball are more than a planar loop can tell apart.

@@ -217,5 +217,41 @@ TEST(ClosedLoopStudy, SaysWhatCannotClose) {
   EXPECT_THAT(refusalOf(far), HasSubstr("the loop 'C' cannot be closed by B.angle, D.angle near their initial values"));
 }
 
+/// `text` with another element ahead of the closure.
+std::string with(std::string text, const std::string& element) {
+  return text.insert(text.find("[[mechanism.element]]\ntype = \"closure\""), "[[mechanism.element]]\n" + element);
+}
+
+TEST(ClosedLoopStudy, SaysWhatDoesNotFitALoop) {
+  EXPECT_THAT(refusalOf(fourBarText("1", "", "to_axis = \"x\"")),
+              HasSubstr("'C' is a pin, which holds no axis of `to`"));
+  EXPECT_THAT(refusalOf(with(fourBarText("1", "", "dependent = [\"D\", \"S\"]"),
+                             "type = \"spherical\"\nname = \"S\"\nfrom = \"inertial\"\nto = \"K4\"\n")),
+              HasSubstr("the joint 'S' has no coordinates for 'C', as the turns of a ball are none"));
+  EXPECT_THAT(refusalOf(with(fourBarText("1", ""),
+                             "type = \"revolute\"\nname = \"E\"\nfrom = \"inertial\"\nto = \"K4\"\naxis = \"z\"\n")),
+              HasSubstr("'E.rate' moves no mass, nor does what closes loops with it"));
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& by) {
+  return text.replace(text.find(old), old.size(), by);
+}
+
+/// Coupler and rocker lie in line, 0.3 m and 0.2 m over the long side of a triangle of 3, 4 and 5.
+TEST(ClosedLoopStudy, SaysThatItStartsAtADeadPoint) {
+  std::string dead = replaced(fourBarText("1", "", "", "angle = -2.2"), "b = \"0.8 m\", c = \"0.6 m\", d = \"0.9 m\"",
+                              "b = \"0.3 m\", c = \"0.2 m\", d = \"0.4 m\"");
+  dead = replaced(replaced(dead, "angle = 1, rate = 4", "angle = \"90 deg\", rate = 4"), "angle = 1.6", "angle = 2.5");
+  EXPECT_THAT(refusalOf(dead), HasSubstr("the loop 'C' starts at a dead point of B.angle, D.angle"));
+  EXPECT_THAT(refusalOf(dead), HasSubstr("\"A.angle\""));
+}
+
+/// All bars lie in line, where the linkage may go on in two ways.
+TEST(ClosedLoopStudy, SaysThatItsRowsDependOnEachOther) {
+  std::string flat = replaced(fourBarText("1", "", "", "angle = -3.1"), "d = \"0.9 m\"", "d = \"1.1 m\"");
+  flat = replaced(replaced(flat, "angle = 1, rate = 4", "angle = \"180 deg\", rate = 4"), "angle = 1.6", "angle = 3.1");
+  EXPECT_THAT(refusalOf(flat), HasSubstr("the loop 'C' starts where its rows depend on each other"));
+}
+
 }  // namespace
 }  // namespace gamut

@@ -1,0 +1,32 @@
+// How loops close where a machine stands: the rows' Jacobian, how firmly the dependent coordinates hold them, and what
+// inertia is felt along the motions that are left.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "mechanics/description/mechanism.hpp"
+#include "mechanics/equations/system.hpp"
+
+namespace gamut {
+
+/// J at the present positions, a column a speed: what it makes of the rows.
+Eigen::MatrixXd jacobianOfLoops(System<double>& system);
+
+/// Tᵀ M T with J T = 0 at the present positions: the inertia that the independent speeds move, dependent ones with
+/// them; what is rounding alone is 0.
+Eigen::MatrixXd inertiaAlongLoops(System<double>& system);
+
+/// How firmly the dependent coordinates hold the loops closed at the present positions.
+struct LoopGrip {
+  double share;                   ///< of the firmness that the best choice has: 0 at a dead point
+  std::vector<std::string> best;  ///< the coordinates of that choice; empty where no choice closes all rows
+};
+
+/// By the least singular value of J_d, in units in which the greatest entry of each row is 1, and angles and
+/// displacements move rows alike. The best choice is that of a pivoted orthogonalisation of the columns of J that
+/// belong to coordinates.
+LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system);
+
+}  // namespace gamut
