@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "analyses/roots/eigenvalue_bounds.hpp"
 #include "analyses/roots/root_family.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
@@ -143,36 +144,29 @@ void restUnread(const Mechanism& mechanism, Motion& motion) {
   motion.f = recorder.finish(rates);
 }
 
-void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std::string>& parameters, Motion& motion) {
+Program recordedOutputs(const Study& study, const Rest* rest, bool withinEnds = false) {
   const std::vector<Expression> outputs = outputExpressions(study);
-  const auto outputsOf = [&](const Assembly<Recorded>& assembly) { return recordOutputs(assembly, outputs); };
+  return recordedOf(
+      study, rest, outputs.size(), [&](const Assembly<Recorded>& assembly) { return recordOutputs(assembly, outputs); },
+      withinEnds);
+}
+
+void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std::string>& parameters, Motion& motion) {
   if (study.isMotionGiven()) {
     motion.f =
         record(1, static_cast<int>(parameters.size()), [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
-    motion.g = recordedOf(study, rest, outputs.size(), outputsOf);
+    motion.g = recordedOutputs(study, rest);
   } else if (study.moves()) {
     refuseMasslessLoops(study);
     motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
     motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
-    motion.g = recordOutputs(study.mechanism, parameters, outputs);
+    motion.g = recordOutputs(study.mechanism, parameters, outputExpressions(study));
     motion.rests = restsOf(study.mechanism);
     restUnread(study.mechanism, motion);
   } else {
-    motion.g = recordedOf(study, rest, outputs.size(), outputsOf);
+    motion.g = recordedOutputs(study, rest);
     motion.f = record(0, motion.g.parameters(), [](auto, const auto&, const auto&, auto&) {});
   }
-}
-
-/// Of remainders, that it does without, and parameters.
-Program outputsAtRest(const Study& study, const Rest& rest, const std::vector<std::string>& parameters) {
-  const std::vector<Expression> outputs = outputExpressions(study);
-  return record(0, rest.remainders() + static_cast<int>(parameters.size()), static_cast<int>(outputs.size()),
-                [&](auto, const auto&, const auto& p, auto& y) {
-                  const std::span<const Recorded> values = std::span<const Recorded>(p).subspan(rest.remainders());
-                  Assembly<Recorded> assembly(study.mechanism, parameters, values);
-                  putToRest(assembly, rest.at(values));
-                  std::ranges::copy(recordOutputs(assembly, outputs), y.begin());
-                });
 }
 
 /// Initial values, then free parameters, and in which of them the uncertain quantities are.
@@ -221,6 +215,70 @@ Box approachLoops(Machine& machine) {
   }
 }
 
+Box parametersIn(const Machine& machine, const Box& box) {
+  return {box.begin() + static_cast<std::ptrdiff_t>(machine.states), box.end()};
+}
+
+std::vector<int> numbersOfModes(const Rest& rest) {
+  std::vector<int> numbers;
+  for (std::size_t k = 0; k < rest.vibration()->modes.size(); ++k) numbers.push_back(rest.vibration()->number(k));
+  return numbers;
+}
+
+/// Of each undamped mode three numbers stand last of what is left open, of which these are the latter.
+void putEnds(const std::vector<Interval>& squares, Box& box, std::size_t states) {
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    Interval* own = &box[states - 3 * (squares.size() - k)];
+    own[1] = Interval(squares[k].lower());
+    own[2] = Interval(squares[k].upper());
+  }
+}
+
+struct ClosedBox {
+  Box box;
+  std::shared_ptr<const EigenvalueBounds> vibrations;
+};
+
+/// For all values of the box: loops are proved to close, or position and modes of rest to exist.
+ClosedBox closedBox(const Machine& machine, Box other) {
+  ClosedBox closed{std::move(other), nullptr};
+  Box parameters = parametersIn(machine, closed.box), open;
+  const Box own = parameters;
+  auto slot = machine.remainders.begin();
+  for (const Program& newton : machine.closing) {
+    const bool isFirst = slot == machine.remainders.begin();
+    const RootFamily family =
+        proveRoots(newton, parameters, static_cast<int>(machine.freeParameters.size()), isFirst ? 1e-9 : 1.0);
+    if (family.remainder.empty()) {
+      if (machine.rest) refuseUnprovedRest(machine.study, machine.freeParameters, *family.open, isFirst);
+      refuseOpenLoops(machine.study, machine.freeParameters, *family.open);
+    }
+    for (const Interval& each : family.remainder) closed.box[*slot++] = each;
+    if (isFirst) open = family.remainder;
+    if (isFirst) parameters.insert(parameters.end(), open.begin(), open.end());
+  }
+  if (!machine.rest || !machine.rest->vibration()) return closed;
+  const RestVibration& vibration = *machine.rest->vibration();
+  const auto openAt = [open, newton = machine.closing.front()](const Box& thin) {
+    constexpr double enough = 1e-7;
+    if (std::ranges::all_of(open, [](const Interval& each) { return magnitude(each) < enough; })) return open;
+    RootFamily family = proveRoots(newton, thin);
+    return family.remainder.empty() ? open : std::move(family.remainder);
+  };
+  closed.vibrations = std::make_shared<const EigenvalueBounds>(vibration.pencil, machine.rest->position(),
+                                                               vibration.basis, own, open, openAt);
+  const std::vector<int> numbers = numbersOfModes(*machine.rest);
+  const std::vector<Interval> squares = closed.vibrations->ranges(numbers, own);
+  if (!std::ranges::all_of(squares, [](const Interval& each) { return isBounded(each); }))
+    refuseUnprovedRest(machine.study, machine.freeParameters, own, false);
+  putEnds(squares, closed.box, machine.states);
+  for (const Interval& beside : closed.vibrations->beside(vibration.near, vibration.shapes, numbers, squares)) {
+    closed.box[*slot] = beside;
+    slot += 3;
+  }
+  return closed;
+}
+
 /// Dependent coordinates start at what is left between Newton's steps and the closed loops, for all values of the box;
 /// at rest all numbers are of this kind. `open`: what that is, where it is known already.
 void closeFamilies(Machine& machine, const Box& open) {
@@ -235,7 +293,11 @@ void closeFamilies(Machine& machine, const Box& open) {
     for (const std::string& dependent : mechanism.dependents())
       machine.remainders.push_back(static_cast<int>(std::ranges::find(names, dependent) - names.begin()));
   }
-  if (open.empty()) machine.box = machine.closed(std::move(machine.box));
+  if (open.empty()) {
+    ClosedBox closed = closedBox(machine, std::move(machine.box));
+    machine.box = std::move(closed.box);
+    machine.vibrations = std::move(closed.vibrations);
+  }
   for (std::size_t i = 0; i < open.size(); ++i) machine.box[machine.remainders[i]] = open[i];
   for (const int slot : machine.remainders) machine.motion.nominal[slot] = midpoint(machine.box[slot]);
 }
@@ -247,13 +309,14 @@ void takeLevels(Machine& machine) {
     Box& level = machine.levels.emplace_back(machine.box);
     for (std::size_t i = 0; i < machine.motion.uncertain.size(); ++i)
       level[machine.motion.slot[i]] = machine.motion.uncertain[i].membership.cut(machine.alpha.back());
+    level = machine.within(std::move(level));
   }
 }
 
 }  // namespace
 
 Program recordedOf(const Study& study, const Rest* rest, std::size_t values,
-                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what) {
+                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what, bool withinEnds) {
   const std::vector<std::string> parameters = freeParametersOf(study);
   const bool moves = study.moves();
   const std::size_t given = rest != nullptr ? rest->remainders() : study.mechanism.stateNames().size();
@@ -264,7 +327,7 @@ Program recordedOf(const Study& study, const Rest* rest, std::size_t values,
     if (study.isMotionGiven())
       assembly.setState({}, t);
     else if (rest != nullptr)
-      putToRest(assembly, rest->at(numbers.first(given), numbers.subspan(given)));
+      putToRest(assembly, rest->at(numbers.first(given), numbers.subspan(given), withinEnds));
     else
       moves ? assembly.setMotion(x, t) : assembly.setMotion(numbers.first(given));
     std::ranges::copy(what(assembly), y.begin());
@@ -284,8 +347,9 @@ std::shared_ptr<const Rest> restOf(const Study& study) {
   const std::vector<std::string> parameters = freeParametersOf(study);
   const Box box = boxOf(study, parameters);
   try {
-    return std::make_shared<const Rest>(study.mechanism, parameters, box, modesIn(study),
-                                        [&](const Program& steps) { return approximated(steps, box); });
+    return std::make_shared<const Rest>(
+        study.mechanism, parameters, box, modesIn(study),
+        [&](const Program& steps, double share) { return approximated(steps, box, share); });
   } catch (...) {
     refuseMechanism(study);
   }
@@ -311,28 +375,18 @@ Machine::Machine(Study of) : study(std::move(of)), freeParameters(freeParameters
   takeNumbers(*this);
   const Box open = approachLoops(*this);
   motion.motion = recordedMotion(study, rest.get());
-  if (rest) sampled = outputsAtRest(study, *rest, freeParameters);
+  if (rest) plain = recordedOutputs(study, rest.get(), true);
   closeFamilies(*this, open);
   cpu = processCpuSeconds() - start;
   takeCourses(*this);
   takeLevels(*this);
 }
 
-Box Machine::closed(Box other) const {
-  Box parameters(other.begin() + static_cast<std::ptrdiff_t>(states), other.end());
-  auto slot = remainders.begin();
-  for (const Program& newton : closing) {
-    const bool isFirst = slot == remainders.begin();
-    const RootFamily family =
-        proveRoots(newton, parameters, static_cast<int>(freeParameters.size()), isFirst ? 1e-9 : 1.0);
-    if (family.remainder.empty()) {
-      if (rest) refuseUnprovedRest(study, freeParameters, *family.open, isFirst);
-      refuseOpenLoops(study, freeParameters, *family.open);
-    }
-    for (const Interval& each : family.remainder) other[*slot++] = each;
-    if (isFirst) parameters.insert(parameters.end(), family.remainder.begin(), family.remainder.end());
-  }
-  return other;
+Box Machine::closed(Box other) const { return closedBox(*this, std::move(other)).box; }
+
+Box Machine::within(Box part) const {
+  if (vibrations) putEnds(vibrations->ranges(numbersOfModes(*rest), parametersIn(*this, part)), part, states);
+  return part;
 }
 
 Program Machine::alongCourses(const Program& program) const {

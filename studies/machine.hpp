@@ -18,6 +18,7 @@ namespace gamut {
 
 template <class S>
 class Assembly;
+class EigenvalueBounds;
 class Recorded;
 class Rest;
 
@@ -50,8 +51,9 @@ struct Machine {
   std::vector<int> remainders;   ///< what families leave open (FlowOptions::remainders): initial values of coordinates
                                  ///< that close loops, or, at rest, all there are
   std::vector<Program> closing;  ///< their Newton's maps: recordClosing(), or Rest::families()
-  std::shared_ptr<const Rest> rest;  ///< of equilibria
-  Program sampled;                   ///< their outputs, as samples find them
+  std::shared_ptr<const Rest> rest;                    ///< of equilibria
+  std::shared_ptr<const EigenvalueBounds> vibrations;  ///< of undamped modes over the box
+  Program plain;           ///< at rest equations().g as plain intervals know most of it; else none
   UncertainMotion motion;  ///< the equations as samples follow them: what varies in time takes the course that its
                            ///< number chooses
 
@@ -60,6 +62,10 @@ struct Machine {
   /// A box of other ranges, for all values of which loops are proved to close, or position and modes of rest to exist.
   /// Throws StudyError where they are not.
   Box closed(Box other) const;
+  /// A part of the box, with what is known there of undamped modes.
+  Box within(Box part) const;
+  /// As findImage takes it.
+  const Program* plainly() const { return rest ? &plain : nullptr; }
   /// A program of states and free parameters as samples follow it: what varies in time takes its course.
   Program alongCourses(const Program& program) const;
 };
@@ -72,8 +78,10 @@ Motion recordedMotion(const Study& study, const Rest* rest);
 inline Motion recordedMotion(const Study& study) { return recordedMotion(study, restOf(study).get()); }
 
 /// `what(assembly)`, so many values, at a state and time of a study's motion: takes what Machine::equations take.
+/// `withinEnds`: as of Rest::at.
 Program recordedOf(const Study& study, const Rest* rest, std::size_t values,
-                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what);
+                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what,
+                   bool withinEnds = false);
 
 /// What is looked at, each in its unit.
 std::vector<Expression> outputExpressions(const Study& study);

@@ -48,13 +48,15 @@ struct ImagePart {
 class ImageFinder {
  public:
   ImageFinder(const Program& g, double t, const Box& box, int degree, const std::atomic<bool>* cancelled,
-              const std::vector<int>& remainders)
+              const std::vector<int>& remainders, const Program* plain = nullptr)
       : t_(t),
         box_(box),
+        remainders_(remainders),
+        isPlainApart_(plain != nullptr),
         embedding_(box, 0, {}, {}, 0, remainders),
         monomials_(monomialsOf(embedding_.symbols, degree)),
         outputs_(g, monomials_, monomials_, {}, cancelled),
-        plain_(g),
+        plain_(plain != nullptr ? *plain : g),
         ranges_(monomials_),
         cancelled_(cancelled),
         states_(g.states()),
@@ -117,6 +119,7 @@ class ImageFinder {
         if (!restrictTo(level, embedding_, part.part.centre, part.part.half, xi)) continue;
         for (std::size_t i = 0; i < own.size(); ++i)
           if (const Interval both = intersection(own[i], level[i]); !isEmpty(both)) own[i] = both;
+        for (const int i : remainders_) own[at(i)] = level[at(i)];
         join(row, rangesOf(part, xi, parts_.size() == 1 ? level : own));
       }
       for (std::size_t o = 0; o < row.size(); ++o) row[o] = intersection(row[o], result.back()[o]);
@@ -198,7 +201,7 @@ class ImageFinder {
       if (part.polynomial[o].empty()) continue;
       const Interval byPolynomial = inflated(ranges_(part.polynomial[o].data(), eta), part.radius[o]);
       if (extremes != nullptr) (*extremes)[o] = extremesOf(ranges_, box_, embedding_, part.part.centre, part.part.half);
-      found[o] = outputs_.hasKinks() || !isWhole ? intersection(byPolynomial, found[o]) : byPolynomial;
+      found[o] = outputs_.hasKinks() || !isWhole || isPlainApart_ ? intersection(byPolynomial, found[o]) : byPolynomial;
     }
     return found;
   }
@@ -299,6 +302,8 @@ class ImageFinder {
 
   const double t_;
   const Box& box_;
+  const std::vector<int> remainders_;
+  const bool isPlainApart_;
   const Embedding embedding_;
   const std::shared_ptr<const Monomials> monomials_;
   FlowOutputs outputs_;
@@ -425,9 +430,12 @@ Image imageOf(const CircleImage& circles, const Embedding& embedding, double t, 
 
 Image findImage(const Program& g, double t, const Box& box, const std::vector<Box>& levels,
                 const std::vector<int>& modelled, int degree, const std::atomic<bool>* cancelled, double work,
-                const std::vector<int>& remainders) {
+                const std::vector<int>& remainders, const Program* plain) {
   requireImage(g, box, degree);
-  requireNested(box, levels);
+  std::vector<Box> parts = levels;
+  for (Box& part : parts)
+    for (const int i : remainders) part.at(at(i)) = box.at(at(i));
+  requireNested(box, parts);
   try {
     std::vector<int> counted = modelled;
     for (int o = 0; o < g.outputs(); ++o)
@@ -437,10 +445,10 @@ Image findImage(const Program& g, double t, const Box& box, const std::vector<Bo
     if (const Embedding embedding(box, 0, {}, {}, 0, remainders);
         circles.areWhole && (circles.angles > few || embedding.symbols > many) && areAllKnown(circles))
       return imageOf(circles, embedding, t, modelled);
-    auto found = std::make_unique<ImageFinder>(g, t, box, degree, cancelled, remainders);
+    auto found = std::make_unique<ImageFinder>(g, t, box, degree, cancelled, remainders, plain);
     const double unknown = found->unknown(counted);
     if (const int richer = richerDegree(*found->monomials()); degree < 0 && work > 0 && richer > 0 && unknown > enough)
-      if (auto other = std::make_unique<ImageFinder>(g, t, box, richer, cancelled, remainders);
+      if (auto other = std::make_unique<ImageFinder>(g, t, box, richer, cancelled, remainders, plain);
           other->unknown(counted) < unknown)
         found = std::move(other);
     ImageFinder& finder = *found;

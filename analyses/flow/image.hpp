@@ -27,10 +27,11 @@ inline constexpr double imageWork = 3e8;
 
 /// Over a box (states, then parameters) and the boxes inside it, each inside the one before. The box is bisected until
 /// the outputs that are modelled (without: all) are known well enough, or it costs more than `work`. degree -1: chosen
-/// by the number of quantities. `remainders` are carried as errors, not as quantities.
+/// by the number of quantities. `remainders` are carried as errors, not as quantities; those of levels need not lie
+/// inside one another. `plain`: the same outputs once more, as plain intervals know most of them.
 Image findImage(const Program& g, double t, const Box& box, const std::vector<Box>& levels,
                 const std::vector<int>& modelled, int degree, const std::atomic<bool>* cancelled,
-                double work = imageWork, const std::vector<int>& remainders = {});
+                double work = imageWork, const std::vector<int>& remainders = {}, const Program* plain = nullptr);
 
 /// The polynomials of an image over a box of parameters, without what they may be off by and what is small of them all:
 /// a program of parameters, like g, that has no states. g itself where there are none.

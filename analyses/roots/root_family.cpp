@@ -91,16 +91,17 @@ class Prover {
     return {};
   }
 
-  /// Halves parts of which much is left open, while that costs little.
+  /// Halves parts of which much is left open, while that costs little and helps.
   void refine() {
     constexpr int most = 24;
+    constexpr double inVain = 0.9;  // of what was left open before
     for (int i = 0; i < most; ++i) {
       const auto loosest = std::ranges::max_element(parts_, {}, &Part::largest);
       const int widest = widestOf(loosest->parameters);
       if (widest < 0 || loosest->largest() <= enough_) return;
       const std::array<Box, 2> halves = halvesOf(loosest->parameters, widest);
       std::optional<Part> lower = prove(halves[0]), upper = prove(halves[1]);
-      if (!lower || !upper) return;
+      if (!lower || !upper || std::max(lower->largest(), upper->largest()) > inVain * loosest->largest()) return;
       *loosest = std::move(*lower);
       parts_.push_back(std::move(*upper));
     }
@@ -238,8 +239,12 @@ RootFamily proveRoots(const Program& newton, const Box& parameters, int quantiti
   return Prover(newton, parameters, quantities, enough).prove();
 }
 
-Program approximated(const Program& steps, const Box& parameters) {
-  return recordPolynomials(steps, parameters, degreeOf(parameters, steps.parameters(), mostMonomials));
+Program approximated(const Program& steps, const Box& parameters, double share) {
+  return recordPolynomials(steps, parameters, degreeFor(parameters, share));
+}
+
+int degreeFor(const Box& parameters, double share) {
+  return degreeOf(parameters, static_cast<int>(parameters.size()), share * mostMonomials);
 }
 
 Program approached(const Program& step, const Box& parameters) {

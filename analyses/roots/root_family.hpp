@@ -26,7 +26,11 @@ RootFamily proveRoots(const Program& newton, const Box& parameters, int quantiti
 
 /// c(p): polynomials near to what Newton's steps, a program of parameters, come to. These steps follow where a root
 /// goes, but each lets errors of polynomials grow that bound it.
-Program approximated(const Program& steps, const Box& parameters);
+/// `share`: of the monomials that degreeFor has.
+Program approximated(const Program& steps, const Box& parameters, double share = 1);
+
+/// The degree of polynomials in the quantities of a box of which there are some hundred monomials, or a share of these.
+int degreeFor(const Box& parameters, double share = 1);
 
 /// The same by one `step` over and over, of n states and of parameters, from states of zero: a step that finds one more
 /// power of the parameters each time, as Newton's with the slopes of the middle does.

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "analyses/roots/all_roots.hpp"
-#include "mechanics/rest.hpp"
+#include "mechanics/rest_equations.hpp"
 #include "scalars/evaluation/evaluate.hpp"
 #include "studies/analysis.hpp"
 #include "studies/running/context.hpp"

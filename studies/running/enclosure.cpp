@@ -197,8 +197,9 @@ class Encloser {
     const std::vector<Interval> direct = assembledOutputs(run_.machine, run_.machine.box);
     std::vector<int> modelled = marginOutputs(study_);
     std::ranges::copy(plainOutputs(study_), std::back_inserter(modelled));
-    const Image image = findImage(run_.machine.motion.motion.g, 0.0, run_.machine.box, run_.machine.levels, modelled,
-                                  study_.flow.degree, run_.watch.stop(), imageWork, run_.machine.remainders);
+    const Image image =
+        findImage(run_.machine.motion.motion.g, 0.0, run_.machine.box, run_.machine.levels, modelled,
+                  study_.flow.degree, run_.watch.stop(), imageWork, run_.machine.remainders, run_.machine.plainly());
     std::vector<Interval> enclosure = direct;
     const auto narrow = [&](std::size_t which, Bounds& bounds) {
       for (std::size_t j = 0; j < enclosure.size() && !image.ranges.empty(); ++j) {

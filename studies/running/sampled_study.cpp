@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mechanics/rest.hpp"
 #include "scalars/samples.hpp"
 
 namespace gamut {
@@ -58,6 +59,12 @@ std::size_t enclosedTimes(const Results& results) {
   std::size_t rows = 0;
   while (rows < bounds.lower.times && !std::isnan(bounds.lower(rows, 0))) ++rows;
   return rows;
+}
+
+std::vector<Samples> withRemainders(const Machine& machine, std::vector<Samples> numbers) {
+  const auto parameters = numbers.begin() + static_cast<std::ptrdiff_t>(machine.states);
+  std::ranges::move(machine.rest->remaindersAt({parameters, numbers.end()}), numbers.begin());
+  return numbers;
 }
 
 void moveSamples(const Machine& machine, SampleBlock& block) {

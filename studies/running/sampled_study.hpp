@@ -7,6 +7,7 @@
 
 #include "mechanics/assembly.hpp"
 #include "scalars/evaluation/evaluate.hpp"
+#include "scalars/samples.hpp"
 #include "studies/machine.hpp"
 #include "studies/results/results.hpp"
 
@@ -20,11 +21,16 @@ EnsembleOptions ensembleOptions(const Machine& machine, const Results& results, 
 /// std::invalid_argument where these make no sense.
 UncertainMotion withSwitchingOf(const Results& results, UncertainMotion motion);
 
+/// At rest: with what these samples leave open of position and modes.
+std::vector<Samples> withRemainders(const Machine& machine, std::vector<Samples> numbers);
+
 /// Where no time passes: the study's outputs by the assembly itself instead of its recording, but for those at rest.
 /// `numbers` as Machine::box.
 template <class S>
 std::vector<S> assembledOutputs(const Machine& machine, const std::vector<S>& numbers) {
-  if (machine.rest) return evaluate<S>(std::same_as<S, Samples> ? machine.sampled : machine.equations().g, {}, numbers);
+  if constexpr (std::same_as<S, Samples>)
+    if (machine.rest) return evaluate<S>(machine.plain, {}, withRemainders(machine, numbers));
+  if (machine.rest) return evaluate<S>(machine.plain, {}, numbers);
   const std::span<const S> values(numbers);
   Assembly<S> assembly(machine.study.mechanism, machine.freeParameters, values.subspan(machine.states));
   assembly.setMotion(values.first(machine.states));

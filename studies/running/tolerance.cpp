@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analyses/flow/image.hpp"
 #include "analyses/requirements/requirement.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
@@ -76,13 +77,19 @@ class Finder {
     return options;
   }
 
+  /// Where no time passes.
+  std::shared_ptr<const FlowModels> modelsOver(const Box& box) const {
+    return findImage(machine_.equations().g, 0.0, box, {}, marginOutputs(study_), study_.flow.degree,
+                     options_.cancelled, imageWork, machine_.remainders, machine_.plainly())
+        .models;
+  }
+
   /// A flow of the nominal values alone tells.
   std::string violatedAtNominal() const {
     Box box = machine_.box;
     for (const auto [number, slot] : machine_.constants) box[slot] = study_.uncertain[number].uncertain.nominal;
-    const auto models = !study_.moves() ? modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_),
-                                                     study_.flow.degree, options_.cancelled, machine_.remainders)
-                                        : modelMargins(machine_, ownOptions(), box).models();
+    const auto models =
+        !study_.moves() ? modelsOver(machine_.within(box)) : modelMargins(machine_, ownOptions(), box).models();
     for (const Requirement& requirement : study_.requirements)
       if (models && models->at.size() > rowOf(study_.times, requirement.demand.until) &&
           Cells(*models, questionOf(study_, requirement, models->at.size())).whole()->verdict() ==
@@ -112,8 +119,7 @@ class Finder {
     try {
       box = machine_.closed(std::move(box));
       if (!study_.moves()) {
-        models = modelImage(machine_.equations().g, 0.0, box, marginOutputs(study_), study_.flow.degree,
-                            options_.cancelled, machine_.remainders);
+        models = modelsOver(box);
       } else {
         const Tube tube = modelMargins(machine_, ownOptions(), box);
         models = tube.models();

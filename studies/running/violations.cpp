@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "analyses/flow/image.hpp"
 #include "analyses/requirements/refutation.hpp"
 #include "analyses/samples/courses.hpp"
 #include "studies/running/flow_of_study.hpp"
@@ -105,6 +106,7 @@ class ThinFlows {
       of.nominal = std::clamp(of.nominal, of.range.lower(), of.range.upper());
       std::erase_if(thin.varying, [&](const VaryingParameter& input) { return input.parameter == of.parameter; });
     }
+    thin.box = run_.machine.within(std::move(thin.box));
     for (Program* program : {&thin.motion.f, &thin.motion.g}) {
       if (!switching.empty()) *program = withSwitching(*program, switching);
       if (!courses.empty()) *program = withCourses(*program, courses, run_.machine.slowest, run_.machine.fastest);
@@ -114,8 +116,9 @@ class ThinFlows {
 
   ThinMargins marginsOf(const ThinMotion& of, const std::vector<double>& times) {
     if (!run_.study.moves())
-      return {modelImage(run_.machine.equations().g, 0.0, of.box, marginOutputs(run_.study), run_.study.flow.degree,
-                         run_.watch.stop(), run_.machine.remainders),
+      return {findImage(run_.machine.equations().g, 0.0, of.box, {}, marginOutputs(run_.study), run_.study.flow.degree,
+                        run_.watch.stop(), imageWork, run_.machine.remainders, run_.machine.plainly())
+                  .models,
               {0.0}};
     FlowOptions options = options_;
     options.varying = of.varying;

@@ -1,4 +1,4 @@
-// One program an output, so that what another one lacks does not matter.
+// One program an output where some may have no value, so that what another one lacks does not matter.
 #include "analyses/flow/outputs/plain_outputs.hpp"
 
 #include <algorithm>
@@ -90,32 +90,36 @@ Interval rangeOf(const Extreme& extreme, const Interval& a, const Interval& b) {
 
 }  // namespace
 
-PlainOutputs::PlainOutputs(const Program& g) : states_(g.states()) {
-  for (const int output : g.outputNodes()) {
-    const Program own = Recorder(g).finish({output});
-    std::vector<int> given;
-    std::vector<Given> extremes;
-    const bool hasAngles = !halfAnglesOf(own).empty();  // these need what they are made of as a whole
-    for (const Extreme& extreme : hasAngles ? std::vector<Extreme>{} : extremesOf(own)) {
-      const Program both = withNodesGiven(own, given, {extreme.a, extreme.b});
-      extremes.push_back({Evaluator<Interval>(withArguments(both, both.outputNodes())), extreme});
-      given.push_back(extreme.node);
-    }
-    const Program rest = withNodesGiven(own, given, own.outputNodes());
-    Output& of = outputs_.emplace_back(withArguments(rest, rest.outputNodes()));
-    of.extremes = std::move(extremes);
-    const std::vector<int> angles = halfAnglesOf(rest);
-    if (angles.empty()) continue;
-    const Program atWorst = withNodesGiven(rest, angles, rest.outputNodes());
-    of.atWorst.emplace_back(withArguments(atWorst, atWorst.outputNodes()));
-    of.angles = angles.size();
-    hasAngles_ = true;
+PlainOutputs::PlainOutputs(const Program& g)
+    : g_(g), hasAngles_(!halfAnglesOf(g).empty()), outputs_(g.outputNodes().size()) {
+  if (!hasAngles_ && extremesOf(g).empty() && argumentsOfRoots(g, g.outputNodes()).empty()) together_.emplace(g);
+}
+
+PlainOutputs::Output& PlainOutputs::apart(int output) {
+  if (outputs_[output]) return *outputs_[output];
+  const Program own = Recorder(g_).finish({g_.outputNodes()[output]});
+  std::vector<int> given;
+  std::vector<Given> extremes;
+  const bool hasAngles = !halfAnglesOf(own).empty();  // these need what they are made of as a whole
+  for (const Extreme& extreme : hasAngles ? std::vector<Extreme>{} : extremesOf(own)) {
+    const Program both = withNodesGiven(own, given, {extreme.a, extreme.b});
+    extremes.push_back({Evaluator<Interval>(withArguments(both, both.outputNodes())), extreme});
+    given.push_back(extreme.node);
   }
+  const Program rest = withNodesGiven(own, given, own.outputNodes());
+  Output& of = outputs_[output].emplace(withArguments(rest, rest.outputNodes()));
+  of.extremes = std::move(extremes);
+  const std::vector<int> angles = halfAnglesOf(rest);
+  if (angles.empty()) return of;
+  const Program atWorst = withNodesGiven(rest, angles, rest.outputNodes());
+  of.atWorst.emplace_back(withArguments(atWorst, atWorst.outputNodes()));
+  of.angles = angles.size();
+  return of;
 }
 
 Interval PlainOutputs::over(int output, const Interval& t, const std::vector<Interval>& states,
                             const std::vector<Interval>& parameters) {
-  Output& of = outputs_[output];
+  Output& of = apart(output);
   std::vector<Interval> all = parameters;
   for (Given& given : of.extremes) {
     given.ofBoth.setParameters(all);
@@ -135,10 +139,16 @@ Interval PlainOutputs::over(int output, const Interval& t, const std::vector<Int
 }
 
 std::vector<Interval> PlainOutputs::over(double t, const Box& box) {
-  const auto states = box.begin() + states_;
+  const auto states = box.begin() + g_.states();
   const std::vector<Interval> x(box.begin(), states), p(states, box.end());
   std::vector<Interval> found;
-  for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) found.push_back(over(o, Interval(t), x, p));
+  if (together_) {
+    together_->setParameters(p);
+    found = (*together_)(Interval(t), x);
+    for (Interval& value : found) value = isEmpty(value) ? Interval::entire() : value;
+  } else {
+    for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) found.push_back(over(o, Interval(t), x, p));
+  }
   return found;
 }
 

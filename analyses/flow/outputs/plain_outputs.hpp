@@ -2,6 +2,7 @@
 // a kink.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scalars/evaluation/evaluator.hpp"
@@ -46,9 +47,13 @@ class PlainOutputs {
     std::size_t angles = 0;
   };
 
-  int states_;
-  bool hasAngles_ = false;
-  std::vector<Output> outputs_;
+  /// Of an output, made where it is first asked for.
+  Output& apart(int output);
+
+  Program g_;
+  bool hasAngles_;
+  std::optional<Evaluator<Interval>> together_;  // of all outputs, where none takes a root, an extreme or an angle
+  std::vector<std::optional<Output>> outputs_;
 };
 
 }  // namespace gamut
