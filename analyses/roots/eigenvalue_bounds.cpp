@@ -390,7 +390,7 @@ std::vector<Interval> EigenvalueBounds::beside(const Program& near, const Progra
                                                const std::vector<int>& numbers,
                                                const std::vector<Interval>& ranges) const {
   const Parts& of = *parts_;
-  const int f = of.f, perMode = 3 + 2 * f;
+  const int f = of.f, perMode = 3 + 2 * f + of.triangle;
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> basis = of.basis;
   const Program residuals =
       record(0, of.root.parameters(), static_cast<int>(numbers.size()) * perMode,
@@ -413,6 +413,7 @@ std::vector<Interval> EigenvalueBounds::beside(const Program& near, const Progra
                    y[w * perMode + 3 + i] = left;
                    y[w * perMode + 3 + f + i] = resisted[i];
                  }
+                 for (int i = 0; i < of.triangle; ++i) y[w * perMode + 3 + 2 * f + i] = stiffness[i] - c[w] * mass[i];
                  y[w * perMode] = c[w];
                  y[w * perMode + 1] = s;
                  y[w * perMode + 2] = g;
@@ -461,6 +462,7 @@ std::vector<Interval> EigenvalueBounds::beside(const Program& near, const Progra
         const double at = midpoint(b0(j, j));
         isApart = isApart && at != 0;
         negatives += at < 0 ? 1 : 0;
+        isApart = isApart && (at < 0) == (j < k);
         d(j, column++) = 1 / std::sqrt(std::abs(at));
       }
       if (!isApart || negatives != k) break;
@@ -468,6 +470,14 @@ std::vector<Interval> EigenvalueBounds::beside(const Program& near, const Progra
       double q = f > 1 ? largestOf(congruent(d, all)) : 0.0;
       for (int i = 0; i < f - 1; ++i) rest(i, i) -= Interval(midpoint(rest(i, i)) < 0 ? -1.0 : 1.0);
       q = (Interval(q) + Interval(normOf(rest))).upper();
+      // Or by what polynomials know of the entries at c, which move with it.
+      const Interval* first = own + 3 + 2 * f;
+      if (const Symmetric atC(f, {first, first + of.triangle}); f > 1 && atC.isKnown()) {
+        Symmetric entries = congruent(d, atC);
+        for (int i = 0; i < f - 1; ++i) entries(i, i) -= Interval(i < k ? -1.0 : 1.0);
+        q = std::min(
+            q, (Interval(normOf(entries)) + Interval(delta) * Interval(largestOf(congruent(d, massSpread)))).upper());
+      }
       if (!(q < 1)) break;
       Interval square(0.0);
       for (int j = 0, column = 0; j < f; ++j) {
