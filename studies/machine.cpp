@@ -200,7 +200,8 @@ void takeNumbers(Machine& machine) {
 /// Before anything is recorded: polynomials of the free parameters that come near to where loops close, unless that
 /// they do is proved only with Newton's steps from the nominal position. What is left open, where it is proved.
 Box approachLoops(Machine& machine) {
-  if (machine.rest || !machine.study.mechanism.isClosed() || machine.freeParameters.empty()) return {};
+  constexpr std::size_t few = 6;  // rows: Newton's steps lose little, and come nearer for wide tolerances
+  if (machine.rest || machine.study.mechanism.dependents().size() <= few || machine.freeParameters.empty()) return {};
   Mechanism& mechanism = machine.study.mechanism;
   const std::vector<std::string>& names = machine.freeParameters;
   const Box parameters(machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end());

@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "mechanics/assembler.hpp"
-#include "mechanics/seen.hpp"
 #include "mechanics/load_on_axis.hpp"
+#include "mechanics/seen.hpp"
 
 namespace gamut {
 namespace {
