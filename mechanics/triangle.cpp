@@ -46,8 +46,11 @@ struct Spatial {};
 
 template <class S>
 void require(double number, const S& x) {
-  if constexpr (std::is_same_v<S, Recorded>)
+  if constexpr (std::is_same_v<S, Recorded>) {
     if (!Recorder::current()->isExactly(x.node(), number)) throw Spatial();
+  } else if (x != number) {
+    throw Spatial();
+  }
 }
 
 /// A point of a frame, and the frame's axes.
@@ -136,19 +139,27 @@ class PlanarTriangle final : public Triangle<S> {
  public:
   enum class Kind { sideBySide, inTurn, withRod };
 
-  PlanarTriangle(View<S> view, Kind kind, std::vector<Leg<S>> legs, std::array<CarriedPoint<S>, 2> points, S rodLength)
-      : view_(view),
+  /// `views`: of planes that it may be in.
+  PlanarTriangle(std::vector<View<S>> views, Kind kind, std::vector<Leg<S>> legs, std::array<CarriedPoint<S>, 2> points,
+                 S rodLength)
+      : views_(std::move(views)),
+        view_(views_.front()),
         kind_(kind),
         legs_(std::move(legs)),
         points_(std::move(points)),
         rodLength_(std::move(rodLength)) {}
 
   std::vector<S> given() override {
-    try {
-      look();
-    } catch (const Spatial&) {
-      return {};
-    }
+    const auto isSeen = [this](const View<S>& view) {
+      view_ = view;
+      try {
+        look();
+        return true;
+      } catch (const Spatial&) {
+        return false;
+      }
+    };
+    if (std::ranges::none_of(views_, isSeen)) return {};
     std::vector<S> all = {squaredLength_};
     for (const Planar<S>* each : {&a_, &b_, &c_, &d_, &e_, &on_[0], &on_[1]}) all.insert(all.end(), {each->x, each->y});
     return all;
@@ -262,6 +273,7 @@ class PlanarTriangle final : public Triangle<S> {
     }
   }
 
+  std::vector<View<S>> views_;
   View<S> view_;
   Kind kind_;
   std::vector<Leg<S>> legs_;
@@ -281,7 +293,7 @@ std::unique_ptr<Triangle<S>> Triangle<S>::of(const Constraint<S>& closing, std::
   using Kind = typename PlanarTriangle<S>::Kind;
   const auto* pin = dynamic_cast<const Closing<S>*>(&closing);
   const auto* rod = dynamic_cast<const Rod<S>*>(&closing);
-  const bool isPin = pin != nullptr && pin->isPin() && pin->axis().isAligned();
+  const bool isPin = pin != nullptr && pin->isPin();
   const std::vector<Leg<S>> legs = legsOf(by, chain);
   if (legs.size() != by.size() || (isPin ? legs.size() != 2 : rod == nullptr || legs.size() != 1)) return nullptr;
   std::array<CarriedPoint<S>, 2> points = isPin ? pin->ends() : rod->ends();
@@ -299,15 +311,16 @@ std::unique_ptr<Triangle<S>> Triangle<S>::of(const Constraint<S>& closing, std::
   ordered.insert(ordered.end(), carriers[1].begin(), carriers[1].end());
   if (ordered.size() != legs.size()) return nullptr;
   const auto hinge = std::ranges::find_if(ordered, [](const Leg<S>& leg) { return leg.hinge != nullptr; });
-  if (isPin && hinge == ordered.end()) return nullptr;  // two slides
-  // A slide stands in the plane of whatever hinge there is; with a rod alone, in any plane along its own axis.
-  const Axis& normal = isPin ? pin->axis() : hinge != ordered.end() ? hinge->hinge->axis() : ordered[0].slide->axis();
-  if (!normal.isAligned()) return nullptr;
-  const View<S> view(hinge != ordered.end() ? normal.index() : (normal.index() + 1) % 3);
+  std::vector<View<S>> views;
+  if (hinge != ordered.end() && hinge->hinge->axis().isAligned()) views.emplace_back(hinge->hinge->axis().index());
+  if (hinge == ordered.end() && !isPin)  // a slide and a rod: across the slide, either way
+    for (const int normal : {0, 1, 2}) views.emplace_back(normal);
+  if (views.empty()) return nullptr;
   for (const Leg<S>& leg : ordered)
-    if (leg.hinge != nullptr && !view.isAlong(leg.hinge->axis())) return nullptr;
+    if (leg.hinge != nullptr && !views.front().isAlong(leg.hinge->axis())) return nullptr;
+  if (isPin && !views.front().isAlong(pin->axis())) return nullptr;
   const Kind kind = !isPin ? Kind::withRod : carriers[1].empty() ? Kind::inTurn : Kind::sideBySide;
-  return std::make_unique<PlanarTriangle<S>>(view, kind, std::move(ordered), std::move(points),
+  return std::make_unique<PlanarTriangle<S>>(std::move(views), kind, std::move(ordered), std::move(points),
                                              isPin ? S(0.0) : rod->length());
 }
 
