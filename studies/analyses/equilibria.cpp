@@ -13,6 +13,7 @@
 #include "analyses/roots/all_roots.hpp"
 #include "mechanics/rest_equations.hpp"
 #include "scalars/evaluation/evaluate.hpp"
+#include "studies/analyses/found_positions.hpp"
 #include "studies/analysis.hpp"
 #include "studies/running/context.hpp"
 #include "studies/settings.hpp"
@@ -143,15 +144,8 @@ std::vector<std::string> EquilibriaResult::told() const {
       isComplete ? fmt::format("{} in the region, and no other", countText(number.size(), "position"))
                  : fmt::format("{} in the region, others may be there", countText(number.size(), "position"))};
   for (std::size_t k = 0; k < number.size(); ++k) {
-    std::string line = stability[k] > 0 ? "stable:" : stability[k] < 0 ? "unstable:" : "of unknown stability:";
-    std::size_t from = 0;
-    for (std::size_t i = 0; i < coordinate.size(); ++i) {
-      const std::size_t to = std::min(coordinates.find(", ", from), coordinates.size());
-      line += fmt::format("{} {} in {}", i > 0 ? "," : "", coordinates.substr(from, to - from),
-                          rangeText(lower(k, i), upper(k, i), 8));
-      from = to + 2;
-    }
-    lines.push_back(std::move(line));
+    const std::string line = stability[k] > 0 ? "stable:" : stability[k] < 0 ? "unstable:" : "of unknown stability:";
+    lines.push_back(line + boundsText(coordinates, lower, upper, k));
   }
   return lines;
 }
@@ -159,11 +153,7 @@ std::vector<std::string> EquilibriaResult::told() const {
 void EquilibriaResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/equilibria", "positions of rest, proved", *this, fieldsOf));
   groups.back().inJson = {{"lower", "*/0"}, {"upper", "*/1"}};
-  groups.back().makesSense = [this](std::size_t) {
-    for (std::size_t i = 0; i < lower.data.size(); ++i)
-      if (!(lower.data[i] <= upper.data[i])) return false;
-    return true;
-  };
+  groups.back().makesSense = [this](std::size_t) { return areOrdered(lower, upper); };
 }
 
 std::unique_ptr<FurtherAnalysis> equilibriaAnalysis() { return std::make_unique<EquilibriaAnalysis>(); }

@@ -15,6 +15,7 @@
 #include "mechanics/description/refusal.hpp"
 #include "mechanics/postures.hpp"
 #include "scalars/evaluation/evaluate.hpp"
+#include "studies/analyses/found_positions.hpp"
 #include "studies/analysis.hpp"
 #include "studies/coordinate_region.hpp"
 #include "studies/running/context.hpp"
@@ -281,15 +282,9 @@ std::vector<std::string> PosturesResult::told() const {
                                              : open > 0 ? "others may be there"
                                                         : "and no other, but not for all values")};
   for (std::size_t k = 0; k < number.size(); ++k) {
-    std::string line = always[k] != 0 ? fmt::format("{}:", number[k]) : fmt::format("{}, for some values:", number[k]);
-    std::size_t from = 0;
-    for (std::size_t i = 0; i < coordinate.size(); ++i) {
-      const std::size_t to = std::min(coordinates.find(", ", from), coordinates.size());
-      line += fmt::format("{} {} in {}", i > 0 ? "," : "", coordinates.substr(from, to - from),
-                          rangeText(lower(k, i), upper(k, i), 8));
-      from = to + 2;
-    }
-    lines.push_back(std::move(line));
+    const std::string line =
+        always[k] != 0 ? fmt::format("{}:", number[k]) : fmt::format("{}, for some values:", number[k]);
+    lines.push_back(line + boundsText(coordinates, lower, upper, k));
   }
   return lines;
 }
@@ -297,11 +292,7 @@ std::vector<std::string> PosturesResult::told() const {
 void PosturesResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/postures", "postures, proved", *this, fieldsOf));
   groups.back().inJson = {{"lower", "*/0"}, {"upper", "*/1"}};
-  groups.back().makesSense = [this](std::size_t) {
-    for (std::size_t i = 0; i < lower.data.size(); ++i)
-      if (!(lower.data[i] <= upper.data[i])) return false;
-    return true;
-  };
+  groups.back().makesSense = [this](std::size_t) { return areOrdered(lower, upper); };
 }
 
 std::unique_ptr<FurtherAnalysis> posturesAnalysis() { return std::make_unique<PosturesAnalysis>(); }
