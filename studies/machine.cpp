@@ -197,6 +197,12 @@ void takeNumbers(Machine& machine) {
   }
 }
 
+/// Proofs that do not succeed within so much CPU time are given up: where a loop comes to a dead point they would go on
+/// for hours.
+std::function<bool()> withinAMinute() {
+  return [start = processCpuSeconds()] { return processCpuSeconds() - start < 60; };
+}
+
 /// Before anything is recorded: polynomials of the free parameters that come near to where loops close, unless that
 /// they do is proved only with Newton's steps from the nominal position. What is left open, where it is proved.
 Box approachLoops(Machine& machine) {
@@ -208,7 +214,9 @@ Box approachLoops(Machine& machine) {
   try {
     const Program step = recordApproach(mechanism, names);
     mechanism.closeNear(names, std::make_shared<const Program>(approached(step, parameters)));
-    Box open = proveRoots(recordClosing(mechanism, names), parameters, static_cast<int>(names.size())).remainder;
+    Box open =
+        proveRoots(recordClosing(mechanism, names), parameters, static_cast<int>(names.size()), 1e-9, withinAMinute())
+            .remainder;
     if (open.empty()) mechanism.closeNear({}, nullptr);
     return open;
   } catch (...) {
@@ -248,8 +256,8 @@ ClosedBox closedBox(const Machine& machine, Box other) {
   auto slot = machine.remainders.begin();
   for (const Program& newton : machine.closing) {
     const bool isFirst = slot == machine.remainders.begin();
-    const RootFamily family =
-        proveRoots(newton, parameters, static_cast<int>(machine.freeParameters.size()), isFirst ? 1e-9 : 1.0);
+    const RootFamily family = proveRoots(newton, parameters, static_cast<int>(machine.freeParameters.size()),
+                                         isFirst ? 1e-9 : 1.0, withinAMinute());
     if (family.remainder.empty()) {
       if (machine.rest) refuseUnprovedRest(machine.study, machine.freeParameters, *family.open, isFirst);
       refuseOpenLoops(machine.study, machine.freeParameters, *family.open);

@@ -36,11 +36,13 @@ double largestOf(const Box& box) {
 
 class Prover {
  public:
-  Prover(const Program& newton, const Box& parameters, int quantities, double enough)
+  Prover(const Program& newton, const Box& parameters, int quantities, double enough,
+         const std::function<bool()>& goesOn)
       : newton_(newton),
         slopes_(forwardDifferentiated(newton)),
         whole_(parameters),
         enough_(enough),
+        goesOn_(goesOn),
         n_(newton.states()),
         quantities_(quantities < 0 ? newton.parameters() : quantities),
         radii_(n_, 0.0) {
@@ -85,7 +87,7 @@ class Prover {
         continue;
       }
       const int widest = widestOf(part);
-      if (widest < 0 || ++halvings > mostHalvings) return part;
+      if (widest < 0 || ++halvings > mostHalvings || isOver()) return part;
       for (const Box& half : halvesOf(part, widest)) open.push_back(half);
     }
     return {};
@@ -98,7 +100,7 @@ class Prover {
     for (int i = 0; i < most; ++i) {
       const auto loosest = std::ranges::max_element(parts_, {}, &Part::largest);
       const int widest = widestOf(loosest->parameters);
-      if (widest < 0 || loosest->largest() <= enough_) return;
+      if (widest < 0 || loosest->largest() <= enough_ || isOver()) return;
       const std::array<Box, 2> halves = halvesOf(loosest->parameters, widest);
       std::optional<Part> lower = prove(halves[0]), upper = prove(halves[1]);
       if (!lower || !upper || std::max(lower->largest(), upper->largest()) > inVain * loosest->largest()) return;
@@ -138,6 +140,8 @@ class Prover {
     }
     return widest;
   }
+
+  bool isOver() const { return goesOn_ && !goesOn_(); }
 
   static Box joined(Box delta, const Box& part) {
     delta.insert(delta.end(), part.begin(), part.end());
@@ -186,7 +190,7 @@ class Prover {
     std::vector<int> degrees{std::min(degreeOf(part, quantities_, mostMonomials), 3)};
     if (std::ranges::any_of(r, [](double radius) { return radius > narrow; })) degrees.push_back(-1);
     auto degree = degrees.begin();
-    for (int i = 0; i < tries; ++i) {
+    for (int i = 0; i < tries && !isOver(); ++i) {
       Box delta;
       for (const double radius : r) delta.emplace_back(-radius, radius);
       const Box slopes = slopesOn(delta, part, *degree);
@@ -227,6 +231,7 @@ class Prover {
   Program slopes_;
   Box whole_;
   double enough_;
+  const std::function<bool()>& goesOn_;
   int n_, quantities_;
   std::vector<int> narrow_, all_;  // what carries no symbol: parameters that are none, δ too
   std::vector<double> radii_;      // of the box about 0, the widest so far
@@ -235,8 +240,9 @@ class Prover {
 
 }  // namespace
 
-RootFamily proveRoots(const Program& newton, const Box& parameters, int quantities, double enough) {
-  return Prover(newton, parameters, quantities, enough).prove();
+RootFamily proveRoots(const Program& newton, const Box& parameters, int quantities, double enough,
+                      const std::function<bool()>& goesOn) {
+  return Prover(newton, parameters, quantities, enough, goesOn).prove();
 }
 
 Program approximated(const Program& steps, const Box& parameters, double share) {

@@ -6,6 +6,7 @@
 // Krawczyk, Computing 4, 1969, about a centre that follows the parameters).
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "scalars/interval.hpp"
@@ -21,8 +22,9 @@ struct RootFamily {
 
 /// `newton`: φ, whose n states are δ and whose n outputs its image, with the parameters p. Of these the first
 /// `quantities` (-1: all) are; others are narrow, as remainders of other roots are. Parts of the box are tried until
-/// δ is at most `enough`, while that costs little.
-RootFamily proveRoots(const Program& newton, const Box& parameters, int quantities = -1, double enough = 1e-9);
+/// δ is at most `enough`, while that costs little. What is not proved when `goesOn` ends it stays open.
+RootFamily proveRoots(const Program& newton, const Box& parameters, int quantities = -1, double enough = 1e-9,
+                      const std::function<bool()>& goesOn = {});
 
 /// c(p): polynomials near to what Newton's steps, a program of parameters, come to. These steps follow where a root
 /// goes, but each lets errors of polynomials grow that bound it.
