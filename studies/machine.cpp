@@ -122,15 +122,36 @@ std::set<int> statesOf(const Program& program, const std::set<int>& outputs) {
   return states;
 }
 
-/// Dependent coordinates of loops that are closed in closed form move nothing: those that no output asks for need not
-/// be followed, and rest.
-void restUnread(const Mechanism& mechanism, Motion& motion) {
+std::set<int> statesOf(const Program& program) {
+  std::set<int> outputs;
+  for (int i = 0; i < program.outputs(); ++i) outputs.insert(i);
+  return statesOf(program, outputs);
+}
+
+/// Where all frames are: what pictures are drawn of.
+Program recordedFrames(const Study& study) {
+  const std::vector<std::string>& names = study.mechanism.frames();
+  return recordedOf(study, nullptr, 12 * names.size(), [&](const Assembly<Recorded>& assembly) {
+    std::vector<Recorded> all;
+    for (const std::string& name : names) {
+      const Frame<Recorded>& frame = assembly.frame(name);
+      for (const auto& each : frame.R.reshaped()) all.push_back(each);
+      for (const auto& each : frame.positionInInertial()) all.push_back(each);
+    }
+    return all;
+  });
+}
+
+/// Dependent coordinates of loops that are closed in closed form move nothing: those that no output asks for, nor a
+/// frame, need not be followed, and rest.
+void restUnread(const Study& study, Motion& motion) {
+  const Mechanism& mechanism = study.mechanism;
+  if (!mechanism.isClosed()) return;
   const std::vector<std::string> names = mechanism.stateNames();
-  std::set<int> asked, outputs;
-  for (int i = 0; i < motion.g.outputs(); ++i) outputs.insert(i);
+  std::set<int> asked = statesOf(recordedFrames(study));
   for (int i = 0; i < motion.f.states(); ++i)
     if (std::ranges::find(mechanism.dependents(), names[i]) == mechanism.dependents().end()) asked.insert(i);
-  asked.merge(statesOf(motion.g, outputs));
+  asked.merge(statesOf(motion.g));
   for (std::size_t before = 0; before != asked.size();) {
     before = asked.size();
     asked.merge(statesOf(motion.f, asked));
@@ -162,7 +183,7 @@ void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std:
     motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
     motion.g = recordOutputs(study.mechanism, parameters, outputExpressions(study));
     motion.rests = restsOf(study.mechanism);
-    restUnread(study.mechanism, motion);
+    restUnread(study, motion);
   } else {
     motion.g = recordedOutputs(study, rest);
     motion.f = record(0, motion.g.parameters(), [](auto, const auto&, const auto&, auto&) {});

@@ -450,7 +450,7 @@ std::vector<Interval> EigenvalueBounds::beside(const Program& near, const Progra
     double delta = magnitude(own[1]) / own[2].lower();
     constexpr int rounds = 6;
     for (int round = 0; round < rounds; ++round) {
-      const double off = magnitude(own[0] - Interval(c0)) + delta;
+      const double off = (Interval(magnitude(own[0] - Interval(c0))) + Interval(delta)).upper();
       Symmetric all = spread;
       all.add(Interval(off), massSpread);
       // Free of units, without row k.
