@@ -133,6 +133,26 @@ TEST(ClosedLoopStudy, EnclosesAFourBarOfAnyLengthsWithinTheirTolerances) {
   expectEnclosed(tube, lengths, Interval(1.0), 8);
 }
 
+/// Coordinates that nothing asks for rest, but for one by which a frame stands that is drawn: a mark on a wheel that a
+/// gear turns.
+TEST(ClosedLoopStudy, FollowsOnlyTheCoordinatesThatSomethingStandsBy) {
+  const auto isFollowed = [](const std::string& text) {
+    const Machine machine = machineOf(text);
+    std::vector<bool> followed;
+    for (const int rate : machine.equations().f.outputNodes())
+      followed.push_back(machine.equations().f.nodes()[rate].op != Op::constant);
+    return followed;
+  };
+  EXPECT_EQ(isFollowed(fourBarText("1", "")), (std::vector<bool>{true, false, false, true}));
+  const std::string marked =
+      "[[mechanism.element]]\ntype = \"revolute\"\nname = \"W\"\nfrom = \"PD\"\nto = \"KW\"\naxis = \"z\"\n"
+      "[[mechanism.element]]\ntype = \"mass\"\nname = \"wheel\"\nat = \"KW\"\nmass = 1\n"
+      "inertia = [0.01, 0.01, 0.02]\n"
+      "[[mechanism.element]]\ntype = \"link\"\nname = \"mark\"\nfrom = \"KW\"\nto = \"KM\"\nvector = [0.2, 0, 0]\n"
+      "[[mechanism.element]]\ntype = \"coupling\"\nname = \"gear\"\nto = \"D\"\njoint = \"W\"\nratio = 2\n";
+  EXPECT_EQ(isFollowed(fourBarText("1", "", marked)), (std::vector<bool>{true, false, true, true}));
+}
+
 /// As practice has them: the start alone is the point.
 TEST(ClosedLoopStudy, StartsFromEveryClosedPositionOfWideTolerances) {
   for (const char* tolerance : {"± 1 %", "± 5 %"}) {
