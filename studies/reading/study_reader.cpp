@@ -262,20 +262,22 @@ class StudyReader {
                    "a joint or a state in [[mechanism.element]], or analysis = \"kinematics\", which needs none");
   }
 
-  /// Throws if some joint moves by itself.
+  /// Throws if some joint moves by itself; what closes a loop moves as the others do.
   void checkDrives(const toml::node& mechanism) const {
     const Mechanism& m = study_.mechanism;
-    if (m.positions() == 0 && m.degreesOfFreedom() == 0) return;
-    if (m.isClosed())
-      source_.fail(*places_.at(m.loops().front().element),
-                   fmt::format("in inverse dynamics the loop '{}' cannot be closed", m.loops().front().element),
-                   "analysis = \"dynamics\", which follows driven joints through loops and tells what drives need");
-    const std::string state = m.stateNames().front();
+    const std::vector<std::string> states = m.stateNames();
+    const std::span moved = std::span(states).first(m.positions() + static_cast<std::size_t>(m.degreesOfFreedom()));
+    const auto free = std::ranges::find_if(moved, [&](const std::string& state) {
+      return std::ranges::find(m.dependents(), state) == m.dependents().end();
+    });
+    if (free == moved.end()) return;
     const auto joint = std::ranges::find_if(
-        m.elements(), [&](const Described& element) { return state.starts_with(element.name() + "."); });
+        m.elements(), [&](const Described& element) { return free->starts_with(element.name() + "."); });
     source_.fail(joint == m.elements().end() ? mechanism : *places_.at(joint->name()),
-                 fmt::format("nothing drives '{}'", state),
-                 "a drive for every coordinate, or analysis = \"dynamics\", which tells what drives need as well");
+                 fmt::format("nothing drives '{}'", *free),
+                 m.isClosed() ? "a drive for every coordinate but those that close loops, or analysis = \"dynamics\""
+                              : "a drive for every coordinate, or analysis = \"dynamics\", which tells what drives "
+                                "need as well");
   }
 
   void checkSomethingMoves(const toml::node& mechanism) const {

@@ -43,6 +43,7 @@ struct FourBarMotion {
   Point closing;      ///< of coupler and rocker
   T acceleration;     ///< of the crank
   T coupler, rocker;  ///< their angular velocities
+  T inertia;          ///< that the crank moves
 };
 
 /// The motion with the closing point to the left of the line from the crank's end to the rocker's pivot, of lengths
@@ -87,7 +88,7 @@ FourBarMotion<T> fourBarByHand(const T& angle, const T& rate, const std::array<T
   add(two, number("0.1"), plus(times(number("0.4"), u), times(number("0.1"), turned(u))), vB, aB, coupler,
       couplerTurns);
   add(number("1.5"), number("0.05"), times(number("0.3") / c, DC), still, still, rocker, rockerTurns);
-  return {C, power / inertia, coupler * rate, rocker * rate};
+  return {C, power / inertia, coupler * rate, rocker * rate, inertia};
 }
 
 }  // namespace gamut::testing
