@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "analyses/samples/sides_of_motion.hpp"
+#include "analyses/samples/sundials.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/evaluation/sample_pack.hpp"
 
@@ -22,25 +23,11 @@ namespace {
 
 using namespace detail;
 
-constexpr long maximumSteps = 2'000'000;      // between two output times: only a motion that goes nowhere needs more
 constexpr double shortestStep = 1e-13;        // of the horizon: below, the motion runs into a singularity
 constexpr long evaluationsBetweenLooks = 64;  // at the clock
 constexpr double tightest = 1e-14;            // relative tolerance, some 50 roundings
 constexpr double longestUnwatched = 0x1p-8;   // of the horizon: the longest step where equations turn
 constexpr double nothingLeft = 1e-14;         // of the horizon, for which CVODE would not begin anew
-
-template <class Handle>
-Handle required(Handle handle, const char* what) {
-  if (handle == nullptr) throw std::runtime_error(std::string("SUNDIALS could not make its ") + what);
-  return handle;
-}
-
-/// Without a branch in the loop, so that the compiler takes several values at once.
-bool allFinite(std::span<const double> values) {
-  bool finite = true;
-  for (const double value : values) finite &= std::abs(value) <= std::numeric_limits<double>::max();
-  return finite;
-}
 
 using detail::load, detail::store;
 GAMUT_INLINE void load(double& to, const double* from) { to = *from; }

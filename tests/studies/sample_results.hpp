@@ -6,6 +6,7 @@
 #include "studies/analyses/derivatives.hpp"
 #include "studies/analyses/equilibria.hpp"
 #include "studies/analyses/postures.hpp"
+#include "studies/analyses/witness.hpp"
 #include "studies/analyses/workspace.hpp"
 #include "studies/results/results.hpp"
 
@@ -225,6 +226,14 @@ inline Results sampleResults() {
   postures.upper = Grid({2, 2}, {-0.5, 0, 0.25, 0.75});
   postures.always = {1, 0};
   postures.open = 1;
+  WitnessResult& witness = r.of<WitnessResult>();
+  witness.present = true;
+  witness.reached = 0.5;
+  witness.cpu = 0.0625;
+  witness.number = {0, 18};
+  witness.apart = Grid({2, 2}, {1e-9, 2e-9, 3e-9, 4e-9});
+  witness.error = Grid({2, 2}, {1e-8, 2e-8, 3e-8, 4e-8});
+  witness.size = {0.5, 0.25};
   WorkspaceResult& workspace = r.of<WorkspaceResult>();
   workspace.present = true;
   workspace.cpu = 0.25;
