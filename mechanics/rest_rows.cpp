@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <type_traits>
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/description/refusal.hpp"
@@ -74,13 +75,20 @@ RestRows::RestRows(const Mechanism& mechanism, const std::vector<std::string>& f
                     "smooth forces");
   dependsOnParameters = inputs.contains(Op::parameter);
   linear = forwardDifferentiated(rows);
+  ofNumbers_ = std::make_shared<Evaluator<double>>(linear);
 }
 
 template <class S>
 LinearRows<S> RestRows::at(const std::vector<S>& v, std::span<const S> p) const {
   std::vector<S> x(3 * v.size(), S(0.0));
   std::ranges::copy(v, x.begin());
-  const std::vector<S> all = evaluate<S>(linear, x, std::vector<S>(p.begin(), p.end()), S(0.0));
+  std::vector<S> all;
+  if constexpr (std::is_same_v<S, double>) {
+    ofNumbers_->setParameters(p);
+    all = (*ofNumbers_)(0.0, x);
+  } else {
+    all = evaluate<S>(linear, x, std::vector<S>(p.begin(), p.end()), S(0.0));
+  }
   LinearRows<S> at{size, {all.begin(), all.begin() + size}, {}, {}, {}};
   for (int i = 0; i < size; ++i)
     for (int j = 0; j < 3 * size; ++j)

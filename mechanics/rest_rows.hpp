@@ -2,6 +2,7 @@
 // loops (Assembly::rowsOfMotion), recorded once with their derivatives.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "scalars/program/program.hpp"
 
 namespace gamut {
+
+template <class S>
+class Evaluator;
 
 /// At v, where v̇ = v̈ = 0: R, and F_0 = ∂R/∂v, F_1 = ∂R/∂v̇, F_2 = ∂R/∂v̈ row by row.
 template <class S>
@@ -32,8 +36,12 @@ struct RestRows {
   Program rows;                      ///< R of v, v̇, v̈
   Program linear;                    ///< with its Jacobian
 
+  /// Of doubles, for one thread at a time.
   template <class S>
   LinearRows<S> at(const std::vector<S>& v, std::span<const S> p) const;
+
+ private:
+  std::shared_ptr<Evaluator<double>> ofNumbers_;  // of `linear`, which is not written as a tape anew each time
 };
 
 }  // namespace gamut

@@ -70,6 +70,7 @@ Matrix couplingsOf(const RestRows& of, const RestVibration& vibration, const std
   const Matrix basis = squareMatrix(vibration.basis, f);
   std::vector<double> values;
   for (const Interval& each : parameters) values.push_back(midpoint(each));
+  Evaluator<double> pencil(vibration.pencil);
   Matrix sum = Matrix::Zero(f, f);
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (isThin(parameters[k])) continue;
@@ -77,7 +78,8 @@ Matrix couplingsOf(const RestRows& of, const RestVibration& vibration, const std
     for (int side = 0; side < 2; ++side) {
       std::vector<double> there = values;
       there[k] = side == 0 ? parameters[k].lower() : parameters[k].upper();
-      const std::vector<double> all = evaluate<double>(vibration.pencil, rooted(of, v, there), there);
+      pencil.setParameters(there);
+      const std::vector<double> all = pencil(0.0, rooted(of, v, there));
       const std::span<const double> entries = std::span<const double>(all).subspan(of.size);
       stiffness[side] = basis.transpose() * symmetricMatrix(entries.first(triangle), f) * basis;
       mass[side] = basis.transpose() * symmetricMatrix(entries.last(triangle), f) * basis;

@@ -44,6 +44,12 @@ struct ImagePart {
   bool isFinal = false;
 };
 
+std::shared_ptr<const Monomials> monomialsOf(int symbols, int degree) {
+  std::vector<int> weights(symbols, 1);
+  const int chosen = degree >= 1 && symbols > 0 ? degree : degreeLadder(weights).back();
+  return std::make_shared<const Monomials>(std::move(weights), chosen);
+}
+
 /// Throws Cancelled.
 class ImageFinder {
  public:
@@ -129,12 +135,6 @@ class ImageFinder {
   }
 
  private:
-  static std::shared_ptr<const Monomials> monomialsOf(int symbols, int degree) {
-    std::vector<int> weights(symbols, 1);
-    const int chosen = degree >= 1 && symbols > 0 ? degree : degreeLadder(weights).back();
-    return std::make_shared<const Monomials>(std::move(weights), chosen);
-  }
-
   static void join(std::vector<Interval>& into, const std::vector<Interval>& other) {
     for (std::size_t o = 0; o < into.size(); ++o) into[o] = hull(into[o], other[o]);
   }
@@ -462,38 +462,31 @@ Image findImage(const Program& g, double t, const Box& box, const std::vector<Bo
   }
 }
 
+/// Nothing of them is proved, so that all are computed together, however many there are.
 Program recordPolynomials(const Program& g, const Box& box, int degree) {
   constexpr double small = 1e-5;  // of the largest coefficient of what varies
-  constexpr double least = 0x1p-8;
   requireImage(g, box, degree);
-  // Where the remainder is not bounded over the box, it is over one like it and smaller: of the same coefficients.
-  std::optional<ImageFinder> finder;
-  Box part = box;
-  double share = 1;
-  const auto isKnown = [&] {
-    return std::ranges::none_of(finder->parts().front().polynomial,
-                                [](const std::vector<double>& c) { return c.empty(); });
-  };
-  for (; share >= least; share /= 4) {
-    for (std::size_t i = 0; i < box.size() && share < 1; ++i) {
-      const double middle = midpoint(box[i]);
-      part[i] = middle + Interval(share) * (box[i] - Interval(middle));
-    }
-    finder.emplace(g, 0.0, part, degree, nullptr, std::vector<int>());
-    if (isKnown()) break;
-  }
-  if (!isKnown()) return g;
-  const ImageFinder& image = *finder;
-  const Monomials& monomials = *image.monomials();
-  const std::vector<std::vector<double>>& polynomial = image.parts().front().polynomial;
-  const auto sizeOf = [&](double c, int m) { return std::fabs(c) * std::pow(share, -monomials.grade(m)); };
+  requireThat(g.states() == 0, "polynomials are recorded of programs without states");
+  const Embedding embedding(box, 0, {}, {}, 0, {});
+  const auto layout = monomialsOf(embedding.symbols, degree);
+  const Monomials& monomials = *layout;
+  PolynomialSeries series(g, g.outputs(), layout, 0, 1, false);
+  for (std::size_t i = 0; i < box.size(); ++i) series.setParameter(static_cast<int>(i), embedding.components[i]);
+  series.compute(0.0, 1.0);
+  std::vector<std::vector<double>> polynomial;
   double largest = 0;
-  for (const std::vector<double>& c : polynomial)
-    for (int m = 1; m < monomials.count(); ++m) largest = std::max(largest, sizeOf(c[m], m));
+  for (int o = 0; o < g.outputs(); ++o) {
+    std::vector<double>& own = polynomial.emplace_back();
+    for (int m = 0; m < monomials.count(); ++m) {
+      own.push_back(series.series(series.outputNode(o))[m * series.stride()]);
+      if (!std::isfinite(own.back())) return g;
+      if (m > 0) largest = std::max(largest, std::fabs(own.back()));
+    }
+  }
   return record(0, g.parameters(), g.outputs(), [&](auto, const auto&, const auto& p, auto& y) {
-    std::vector<Recorded> xi(image.embedding().symbols, Recorded(0.0));
+    std::vector<Recorded> xi(embedding.symbols, Recorded(0.0));
     for (std::size_t i = 0; i < box.size(); ++i)
-      if (const Embedded& e = image.embedding().components[i]; e.symbol >= 0) xi[e.symbol] = (p[i] - e.centre) / e.half;
+      if (const Embedded& e = embedding.components[i]; e.symbol >= 0) xi[e.symbol] = (p[i] - e.centre) / e.half;
     std::vector<Recorded> powers{Recorded(1.0)};
     for (int m = 1; m < monomials.count(); ++m) {
       int factor = 0;
@@ -503,7 +496,7 @@ Program recordPolynomials(const Program& g, const Box& box, int degree) {
     for (std::size_t o = 0; o < polynomial.size(); ++o) {
       Recorded sum(polynomial[o][0]);
       for (int m = 1; m < monomials.count(); ++m)
-        if (sizeOf(polynomial[o][m], m) > small * largest) sum = sum + polynomial[o][m] * powers[m];
+        if (std::fabs(polynomial[o][m]) > small * largest) sum = sum + polynomial[o][m] * powers[m];
       y[o] = sum;
     }
   });
