@@ -301,9 +301,10 @@ ClosedBox closedBox(const Machine& machine, Box other) {
   const std::vector<Interval> squares = closed.vibrations->ranges(numbers, own);
   if (!std::ranges::all_of(squares, [](const Interval& each) { return isBounded(each); }))
     refuseUnprovedRest(machine.study, machine.freeParameters, own, false);
-  putEnds(squares, closed.box, machine.states);
-  for (const Interval& beside : closed.vibrations->beside(vibration.near, vibration.shapes, numbers, squares)) {
-    closed.box[*slot] = beside;
+  const EigenvalueBounds::Beside beside = closed.vibrations->beside(vibration.near, vibration.shapes, numbers, squares);
+  putEnds(beside.ranges, closed.box, machine.states);
+  for (const Interval& off : beside.off) {
+    closed.box[*slot] = off;
     slot += 3;
   }
   return closed;
@@ -415,7 +416,13 @@ Machine::Machine(Study of) : study(std::move(of)), freeParameters(freeParameters
 Box Machine::closed(Box other) const { return closedBox(*this, std::move(other)).box; }
 
 Box Machine::within(Box part) const {
-  if (vibrations) putEnds(vibrations->ranges(numbersOfModes(*rest), parametersIn(*this, part)), part, states);
+  if (!vibrations) return part;
+  std::vector<Interval> squares = vibrations->ranges(numbersOfModes(*rest), parametersIn(*this, part));
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    const Interval* ends = &box[states - 3 * (squares.size() - k)];
+    squares[k] = intersection(squares[k], Interval(ends[1].lower(), ends[2].upper()));
+  }
+  putEnds(squares, part, states);
   return part;
 }
 

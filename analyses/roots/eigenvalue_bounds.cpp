@@ -5,7 +5,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 #include <span>
@@ -165,41 +167,57 @@ bool isZero(const Program& program, int output) {
          program.constants()[node.a].upper() == 0;
 }
 
-}  // namespace
+/// M = Lᵀ diag(d) L of its lower triangle, L with ones on its diagonal and row by row, eliminated from the last row to
+/// the first: what hangs on outer joints is left out of inner ones, so that polynomials see what cancels.
+template <class S>
+struct Eliminated {
+  std::vector<S> pivots, lower;
 
-struct EigenvalueBounds::Parts {
+  Eliminated(std::vector<S> m, int f) : pivots(f, S(0.0)), lower(f * f, S(0.0)) {
+    for (int k = f; k-- > 0;) {
+      pivots[k] = m[triangleEntry(k, k)];
+      lower[k * f + k] = S(1.0);
+      for (int i = 0; i < k; ++i) lower[k * f + i] = m[triangleEntry(k, i)] / pivots[k];
+      for (int i = 0; i < k; ++i)
+        for (int j = 0; j <= i; ++j)
+          m[triangleEntry(i, j)] = m[triangleEntry(i, j)] - lower[k * f + i] * m[triangleEntry(k, j)];
+    }
+  }
+};
+
+/// The pencil along its root, whatever the box.
+struct Pencil {
   Program pencil, root;
   int n, f = 0, quantities, triangle;
   Matrix basis;
-  Box parameters, open;
-  Open openAt;
-  bool isKnown = false;
-  // dK/dp_i, dM/dp_i over the box, as the basis sees them, and how they are bounded
-  std::vector<Symmetric> stiffness, mass;
-  std::vector<LoewnerBounds> ofStiffness, ofMass;
+  Box open;
+  EigenvalueBounds::Open openAt;
+  bool isUnit = false;  // M is 1
+  // Of parameters and what is open.
+  Program slopes;          // total derivatives of entries that are not nothing
+  std::vector<int> which;  // of these, by quantities, K then M
+  Program pivots;          // of M, eliminated from the last row to the first
 
-  Parts(const Program& itsPencil, const Program& itsRoot, const std::vector<double>& itsBasis, Box itsParameters,
-        Box itsOpen, Open itsOpenAt)
+  Pencil(const Program& itsPencil, const Program& itsRoot, const std::vector<double>& itsBasis, Box itsOpen,
+         EigenvalueBounds::Open itsOpenAt)
       : pencil(itsPencil),
         root(itsRoot),
         n(pencil.states()),
         quantities(pencil.parameters()),
         triangle((pencil.outputs() - n) / 2),
-        parameters(std::move(itsParameters)),
         open(std::move(itsOpen)),
         openAt(std::move(itsOpenAt)) {
     while (f * (f + 1) / 2 < triangle) ++f;
     basis =
         Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(itsBasis.data(), f, f);
-    isKnown = findSlopes();
-    if (isKnown) isKnown = isMassPositive();
+    recordSlopes();
+    recordPivots();
   }
 
   Symmetric modal(const Symmetric& a) const { return congruent(basis, a); }
 
-  /// Nonzero total derivatives of the pencil's entries by each parameter: their range over the box.
-  bool findSlopes() {
-    std::vector<int> by, nodes, which;
+  void recordSlopes() {
+    std::vector<int> by, nodes;
     for (int i = 0; i < quantities; ++i) by.push_back(n + i);
     std::vector<int> first(pencil.outputNodes().begin(), pencil.outputNodes().begin() + n);
     const Program rows = Recorder(pencil).finish(first), slopesOfRows = forwardDifferentiated(rows, true),
@@ -208,11 +226,12 @@ struct EigenvalueBounds::Parts {
     const Program all =
         record(0, root.parameters(), quantities * 2 * triangle, [&](auto, const auto&, const auto& p, auto& y) {
           const std::vector<Recorded> own(p.begin(), p.begin() + quantities),
-              v = evaluate<Recorded>(root, {}, {p.begin(), p.end()}), slopes = evaluate<Recorded>(slopesOfRows, v, own);
-          std::vector<Recorded> held(slopes.begin() + n, slopes.begin() + n + n * n), x = v;
+              v = evaluate<Recorded>(root, {}, {p.begin(), p.end()}),
+              slopesAt = evaluate<Recorded>(slopesOfRows, v, own);
+          std::vector<Recorded> held(slopesAt.begin() + n, slopesAt.begin() + n + n * n), x = v;
           for (int i = 0; i < quantities; ++i) {
             std::vector<Recorded> right;
-            for (int k = 0; k < n; ++k) right.push_back(-slopes[n + n * n + k * quantities + i]);
+            for (int k = 0; k < n; ++k) right.push_back(-slopesAt[n + n * n + k * quantities + i]);
             if (!std::ranges::all_of(right, [](const Recorded& r) { return isKnownZero(r); }))
               LinearSystem<Recorded>(MatrixKind::general, n, held).solve(right);
             x.insert(x.end(), right.begin(), right.end());
@@ -226,24 +245,113 @@ struct EigenvalueBounds::Parts {
         which.push_back(o);
         nodes.push_back(all.outputNodes()[o]);
       }
+    if (!nodes.empty()) slopes = Recorder(all).finish(nodes);
+  }
+
+  void recordPivots() {
+    pivots = record(0, root.parameters(), f, [&](auto, const auto&, const auto& p, auto& y) {
+      const std::vector<Recorded> own(p.begin(), p.begin() + quantities),
+          all = evaluate<Recorded>(pencil, evaluate<Recorded>(root, {}, {p.begin(), p.end()}), own);
+      std::ranges::copy(Eliminated<Recorded>({all.end() - triangle, all.end()}, f).pivots, y.begin());
+    });
+  }
+  /// M then is positive definite for all of these parameters (J. J. Sylvester).
+  bool arePivotsPositive(const Box& parameters) const {
+    const Box found = encloseImage(pivots, 0.0, withOpen(parameters), {}, degreeFor(parameters), nullptr, narrow())[0];
+    return std::ranges::all_of(found, [](const Interval& pivot) { return isBounded(pivot) && pivot.lower() > 0; });
+  }
+
+  /// The same eigenvalues by a pencil whose M is 1 for all parameters: of √d L x in place of x.
+  Pencil withUnitMass(const Box& parameters) const {
+    const Program unit = record(n, quantities, pencil.outputs(), [&](auto, const auto& x, const auto& p, auto& y) {
+      const std::vector<Recorded> all = evaluate<Recorded>(pencil, {x.begin(), x.end()}, {p.begin(), p.end()});
+      const std::span<const Recorded> k(&all[n], triangle);
+      const Eliminated<Recorded> mass({all.end() - triangle, all.end()}, f);
+      std::vector<std::vector<Recorded>> columns;  // of L⁻¹ d^-½
+      for (int j = 0; j < f; ++j) {
+        std::vector<Recorded>& column = columns.emplace_back(f, Recorded(0.0));
+        column[j] = Recorded(1.0) / sqrt(mass.pivots[j]);
+        for (int i = j + 1; i < f; ++i)
+          for (int l = j; l < i; ++l) column[i] = column[i] - mass.lower[i * f + l] * column[l];
+      }
+      std::ranges::copy(std::span<const Recorded>(all).first(n), y.begin());
+      for (int i = 0; i < f; ++i) {
+        const std::vector<Recorded> image = times<Recorded>(k, columns[i]);
+        for (int j = 0; j <= i; ++j) {
+          Recorded sum(0.0);
+          for (int l = 0; l < f; ++l) sum = sum + columns[j][l] * image[l];
+          y[n + triangleEntry(i, j)] = sum;
+          y[n + triangle + triangleEntry(i, j)] = Recorded(i == j ? 1.0 : 0.0);
+        }
+      }
+    });
+    std::vector<double> middle;
+    for (const Interval& each : withOpen(parameters)) middle.push_back(midpoint(each));
+    const std::vector<double> own(middle.begin(), middle.begin() + quantities),
+        all = evaluate<double>(pencil, evaluate<double>(root, {}, middle), own);
+    const Eliminated<double> mass({all.end() - triangle, all.end()}, f);
+    std::vector<double> itsBasis;
+    for (int i = 0; i < f; ++i)
+      for (int j = 0; j < f; ++j) {
+        double sum = 0;
+        for (int l = 0; l <= i; ++l) sum += mass.lower[i * f + l] * basis(l, j);
+        itsBasis.push_back(std::sqrt(mass.pivots[i]) * sum);
+      }
+    Pencil other(unit, root, itsBasis, open, openAt);
+    other.isUnit = true;
+    return other;
+  }
+
+  /// Of parameters in a box, and all that is open there.
+  Box withOpen(const Box& parameters) const {
     Box box = parameters;
     box.insert(box.end(), open.begin(), open.end());
-    std::vector<int> narrow;
-    for (std::size_t i = parameters.size(); i < box.size(); ++i) narrow.push_back(static_cast<int>(i));
+    return box;
+  }
+  std::vector<int> narrow() const {
+    std::vector<int> numbers;
+    for (std::size_t i = 0; i < open.size(); ++i) numbers.push_back(quantities + static_cast<int>(i));
+    return numbers;
+  }
+};
+
+}  // namespace
+
+/// A piece of the box.
+struct EigenvalueBounds::Piece {
+  const Pencil& pencil;
+  const int f, quantities;
+  Box parameters;
+  bool hasSlopes = false;  // otherwise nothing is known
+  double stiffnessSize = 1;
+  bool isMassPositive = false;  // by these
+  // dK/dp_i, dM/dp_i over the piece, as the basis sees them, and how they are bounded
+  std::vector<Symmetric> stiffness, mass;
+  std::vector<LoewnerBounds> ofStiffness, ofMass;
+
+  Piece(const Pencil& itsPencil, Box itsParameters)
+      : pencil(itsPencil), f(pencil.f), quantities(pencil.quantities), parameters(std::move(itsParameters)) {
+    hasSlopes = findSlopes();
+    stiffnessSize = std::max(at(middleOf(parameters)).stiffness.middle().cwiseAbs().trace(), 0x1p-1000);
+    isMassPositive = hasSlopes && findMassPositive();
+  }
+
+  /// Nonzero total derivatives of the pencil's entries by each parameter: their range over the piece.
+  bool findSlopes() {
     Box ranges;
-    if (!nodes.empty()) {
-      constexpr int degree = 2;
-      ranges = encloseImage(Recorder(all).finish(nodes), 0.0, box, {}, degree, nullptr, narrow)[0];
+    if (!pencil.which.empty()) {
+      const int degree = pencil.isUnit ? degreeFor(parameters) : 2;  // much cancels in what is eliminated
+      ranges = encloseImage(pencil.slopes, 0.0, pencil.withOpen(parameters), {}, degree, nullptr, pencil.narrow())[0];
     }
     stiffness.assign(quantities, Symmetric(f));
     mass = stiffness;
-    for (std::size_t o = 0; o < which.size(); ++o) {
+    for (std::size_t o = 0; o < pencil.which.size(); ++o) {
       if (!isBounded(ranges[o]) || isEmpty(ranges[o])) return false;
-      const int i = which[o] / (2 * triangle), entry = which[o] % (2 * triangle);
-      (entry < triangle ? stiffness : mass)[i].set(entry % triangle, ranges[o]);
+      const int i = pencil.which[o] / (2 * pencil.triangle), entry = pencil.which[o] % (2 * pencil.triangle);
+      (entry < pencil.triangle ? stiffness : mass)[i].set(entry % pencil.triangle, ranges[o]);
     }
     for (int i = 0; i < quantities; ++i) {
-      for (Symmetric* each : {&stiffness[i], &mass[i]}) *each = modal(*each);
+      for (Symmetric* each : {&stiffness[i], &mass[i]}) *each = pencil.modal(*each);
       const std::optional<LoewnerBounds> k = loewnerBounds(stiffness[i]), m = loewnerBounds(mass[i]);
       if (!k || !m) return false;
       ofStiffness.push_back(*k);
@@ -252,18 +360,41 @@ struct EigenvalueBounds::Parts {
     return true;
   }
 
+  std::vector<Interval> ranges(const std::vector<int>& numbers, const Box& part) const;
+  Beside beside(const Program& near, const Program& shapes, const std::vector<int>& numbers,
+                const std::vector<Interval>& ranges) const;
+
+  /// By how much a quantity moves K and M, about, of what they are in the middle.
+  double movedBy(int i) const {
+    const double wide = width(parameters[i]);
+    if (!hasSlopes) return wide / std::max(magnitude(parameters[i]), 0x1p-1000);
+    return wide * ((ofStiffness[i].sizeBelow + ofStiffness[i].sizeAbove) / stiffnessSize +
+                   (ofMass[i].sizeBelow + ofMass[i].sizeAbove) / f);
+  }
+  double moved() const {
+    double sum = 0;
+    for (int i = 0; i < quantities; ++i) sum += movedBy(i);
+    return hasSlopes ? sum : std::numeric_limits<double>::infinity();
+  }
+  int mover() const {
+    int mover = 0;
+    for (int i = 1; i < quantities; ++i)
+      if (movedBy(i) > movedBy(mover)) mover = i;
+    return mover;
+  }
+
   /// K and M at thin parameters.
   struct At {
     Symmetric stiffness, mass;
   };
   At at(const std::vector<double>& anchor) const {
-    const Box own(anchor.begin(), anchor.end()), left = openAt(own);
+    const Box own(anchor.begin(), anchor.end()), left = pencil.openAt(own);
     Box all = own;
     all.insert(all.end(), left.begin(), left.end());
-    const Box v = evaluate<Interval>(root, {}, all, Interval(0.0)),
-              entries = evaluate<Interval>(pencil, v, own, Interval(0.0));
-    const auto first = entries.begin() + n, second = first + triangle;
-    return {modal(Symmetric(f, {first, second})), modal(Symmetric(f, {second, entries.end()}))};
+    const Box v = evaluate<Interval>(pencil.root, {}, all, Interval(0.0)),
+              entries = evaluate<Interval>(pencil.pencil, v, own, Interval(0.0));
+    const auto first = entries.begin() + pencil.n, second = first + pencil.triangle;
+    return {pencil.modal(Symmetric(f, {first, second})), pencil.modal(Symmetric(f, {second, entries.end()}))};
   }
 
   static std::vector<double> middleOf(const Box& part) {
@@ -312,7 +443,7 @@ struct EigenvalueBounds::Parts {
     return bound;
   }
 
-  bool isMassPositive() const {
+  bool findMassPositive() const {
     const Bound bound = boundOn(parameters, true, [&](int i) { return ofMass[i]; });
     Symmetric least = at(bound.corner).mass;
     least.add(Interval(1.0), bound.loss);
@@ -361,22 +492,16 @@ struct EigenvalueBounds::Parts {
   }
 };
 
-EigenvalueBounds::EigenvalueBounds(const Program& pencil, const Program& root, const std::vector<double>& basis,
-                                   const Box& parameters, const Box& open, const Open& openAt)
-    : parts_(std::make_unique<const Parts>(pencil, root, basis, parameters, open, openAt)) {}
-
-EigenvalueBounds::~EigenvalueBounds() = default;
-
-std::vector<Interval> EigenvalueBounds::ranges(const std::vector<int>& numbers, const Box& part) const {
-  std::map<std::vector<double>, Parts::At> corners;
-  const auto atCorner = [&](const std::vector<double>& corner) -> const Parts::At& {
+std::vector<Interval> EigenvalueBounds::Piece::ranges(const std::vector<int>& numbers, const Box& part) const {
+  std::map<std::vector<double>, At> corners;
+  const auto atCorner = [&](const std::vector<double>& corner) -> const At& {
     const auto found = corners.find(corner);
-    return found != corners.end() ? found->second : corners.emplace(corner, parts_->at(corner)).first->second;
+    return found != corners.end() ? found->second : corners.emplace(corner, at(corner)).first->second;
   };
   std::vector<Interval> ranges(numbers.size(), Interval::entire());
-  for (std::size_t k = 0; k < numbers.size() && parts_->isKnown; ++k) {
-    const std::optional<double> lower = parts_->end(numbers[k], part, true, atCorner),
-                                upper = parts_->end(numbers[k], part, false, atCorner);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const std::optional<double> lower = end(numbers[k], part, true, atCorner),
+                                upper = end(numbers[k], part, false, atCorner);
     if (lower && upper) ranges[k] = Interval(*lower, *upper);
   }
   return ranges;
@@ -386,65 +511,72 @@ std::vector<Interval> EigenvalueBounds::ranges(const std::vector<int>& numbers, 
 /// without row and column k. Where B_J is regular and has k negative eigenvalues for all p, λ_k < σ where s − bᵀB_J⁻¹b
 /// < 0, and λ_k > σ where that is above 0 (E. V. Haynsworth). B_J = D^½ (±1 + F) D^½ with ‖F‖ ≤ q < 1 has the signs of
 /// D, and |bᵀB_J⁻¹b| ≤ Σ b_j²/d_j/(1 − q).
-std::vector<Interval> EigenvalueBounds::beside(const Program& near, const Program& shapes,
-                                               const std::vector<int>& numbers,
-                                               const std::vector<Interval>& ranges) const {
-  const Parts& of = *parts_;
-  const int f = of.f, perMode = 3 + 2 * f + of.triangle;
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> basis = of.basis;
-  const Program residuals =
-      record(0, of.root.parameters(), static_cast<int>(numbers.size()) * perMode,
-             [&](auto, const auto&, const auto& p, auto& y) {
-               const std::vector<Recorded> own(p.begin(), p.begin() + of.quantities),
-                   all = evaluate<Recorded>(of.pencil, evaluate<Recorded>(of.root, {}, {p.begin(), p.end()}), own),
-                   c = evaluate<Recorded>(near, {}, own), vectors = evaluate<Recorded>(shapes, {}, own);
-               const std::span<const Recorded> entries = std::span<const Recorded>(all).subspan(of.n);
-               const std::span<const double> phi(basis.data(), basis.size());
-               const std::vector<Recorded> stiffness = congruent<Recorded>(entries.first(of.triangle), phi, f, f),
-                                           mass = congruent<Recorded>(entries.last(of.triangle), phi, f, f);
-               for (std::size_t w = 0; w < numbers.size(); ++w) {
-                 const std::span<const Recorded> x = std::span<const Recorded>(vectors).subspan(w * f, f);
-                 const std::vector<Recorded> held = times<Recorded>(stiffness, x), resisted = times<Recorded>(mass, x);
-                 Recorded s(0.0), g(0.0);
-                 for (int i = 0; i < f; ++i) {
-                   const Recorded left = held[i] - c[w] * resisted[i];
-                   s = s + x[i] * left;
-                   g = g + x[i] * resisted[i];
-                   y[w * perMode + 3 + i] = left;
-                   y[w * perMode + 3 + f + i] = resisted[i];
-                 }
-                 for (int i = 0; i < of.triangle; ++i) y[w * perMode + 3 + 2 * f + i] = stiffness[i] - c[w] * mass[i];
-                 y[w * perMode] = c[w];
-                 y[w * perMode + 1] = s;
-                 y[w * perMode + 2] = g;
-               }
-             });
-  Box box = of.parameters;
-  box.insert(box.end(), of.open.begin(), of.open.end());
-  std::vector<int> narrow;
-  for (std::size_t i = of.parameters.size(); i < box.size(); ++i) narrow.push_back(static_cast<int>(i));
-  const Box found = encloseImage(residuals, 0.0, box, {}, degreeFor(of.parameters), nullptr, narrow)[0];
+EigenvalueBounds::Beside EigenvalueBounds::Piece::beside(const Program& near, const Program& shapes,
+                                                         const std::vector<int>& numbers,
+                                                         const std::vector<Interval>& ranges) const {
+  const int triangle = pencil.triangle, perMode = 3 + 2 * f + triangle;
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> basis = pencil.basis;
+  const auto residuals = [&](std::size_t from, std::size_t to) {
+    return record(
+        0, pencil.root.parameters(), static_cast<int>(to - from) * perMode,
+        [&](auto, const auto&, const auto& p, auto& y) {
+          const std::vector<Recorded> own(p.begin(), p.begin() + quantities),
+              all = evaluate<Recorded>(pencil.pencil, evaluate<Recorded>(pencil.root, {}, {p.begin(), p.end()}), own),
+              c = evaluate<Recorded>(near, {}, own), vectors = evaluate<Recorded>(shapes, {}, own);
+          const std::span<const Recorded> entries = std::span<const Recorded>(all).subspan(pencil.n);
+          const std::span<const double> phi(basis.data(), basis.size());
+          const std::vector<Recorded> modalStiffness = congruent<Recorded>(entries.first(triangle), phi, f, f),
+                                      modalMass = congruent<Recorded>(entries.last(triangle), phi, f, f);
+          for (std::size_t w = from; w < to; ++w) {
+            const int first = static_cast<int>(w - from) * perMode;
+            const std::span<const Recorded> x = std::span<const Recorded>(vectors).subspan(w * f, f);
+            const std::vector<Recorded> held = times<Recorded>(modalStiffness, x),
+                                        resisted = times<Recorded>(modalMass, x);
+            Recorded s(0.0), g(0.0);
+            for (int i = 0; i < f; ++i) {
+              const Recorded left = held[i] - c[w] * resisted[i];
+              s = s + x[i] * left;
+              g = g + x[i] * resisted[i];
+              y[first + 3 + i] = left;
+              y[first + 3 + f + i] = resisted[i];
+            }
+            for (int i = 0; i < triangle; ++i) y[first + 3 + 2 * f + i] = modalStiffness[i] - c[w] * modalMass[i];
+            y[first] = c[w];
+            y[first + 1] = s;
+            y[first + 2] = g;
+          }
+        });
+  };
+  const Box box = pencil.withOpen(parameters);
+  constexpr std::size_t together = 16384;  // numbers: all have room, whatever the number of modes
+  const std::size_t atOnce = std::max<std::size_t>(1, together / static_cast<std::size_t>(perMode));
+  Box found;
+  for (std::size_t w = 0; w < numbers.size(); w += atOnce) {
+    const Program own = residuals(w, std::min(w + atOnce, numbers.size()));
+    const Box image = encloseImage(own, 0.0, box, {}, degreeFor(parameters), nullptr, pencil.narrow())[0];
+    found.insert(found.end(), image.begin(), image.end());
+  }
 
-  const Parts::At middle = of.at(Parts::middleOf(of.parameters));
-  std::vector<Interval> result;
+  const At middle = at(middleOf(parameters));
+  Beside result{{}, ranges};
   for (std::size_t w = 0; w < numbers.size(); ++w) {
     const Interval* own = &found[w * perMode];
     const int k = numbers[w];
     const Interval loose = ranges[w] - own[0];
-    result.push_back(loose);
-    if (!isBounded(own[0]) || !isBounded(own[1]) || !(own[2].lower() > 0) || !of.isKnown) continue;
+    result.off.push_back(loose);
+    if (!isBounded(own[0]) || !isBounded(own[1]) || !(own[2].lower() > 0)) continue;
     // What B_J leaves at the middle, and what the quantities add.
     const double c0 = midpoint(own[0]);
     Symmetric b0 = middle.stiffness, spread(f), massSpread(f);
     b0.add(Interval(-c0), middle.mass);
-    for (int i = 0; i < of.quantities; ++i) {
-      if (isThin(of.parameters[i])) continue;
-      const LoewnerBounds bounds = of.slopeBounds(i, c0);
-      const Interval radius(magnitude(of.parameters[i] - Interval(midpoint(of.parameters[i]))));
+    for (int i = 0; i < quantities; ++i) {
+      if (isThin(parameters[i])) continue;
+      const LoewnerBounds bounds = slopeBounds(i, c0);
+      const Interval radius(magnitude(parameters[i] - Interval(midpoint(parameters[i]))));
       spread.add(radius, bounds.below);
       spread.add(radius, bounds.above);
-      massSpread.add(radius, of.ofMass[i].below);
-      massSpread.add(radius, of.ofMass[i].above);
+      massSpread.add(radius, ofMass[i].below);
+      massSpread.add(radius, ofMass[i].above);
     }
     massSpread.add(Interval(1.0), middle.mass);
     double delta = magnitude(own[1]) / own[2].lower();
@@ -459,11 +591,11 @@ std::vector<Interval> EigenvalueBounds::beside(const Program& near, const Progra
       bool isApart = true;
       for (int j = 0, column = 0; j < f; ++j) {
         if (j == k) continue;
-        const double at = midpoint(b0(j, j));
-        isApart = isApart && at != 0;
-        negatives += at < 0 ? 1 : 0;
-        isApart = isApart && (at < 0) == (j < k);
-        d(j, column++) = 1 / std::sqrt(std::abs(at));
+        const double there = midpoint(b0(j, j));
+        isApart = isApart && there != 0;
+        negatives += there < 0 ? 1 : 0;
+        isApart = isApart && (there < 0) == (j < k);
+        d(j, column++) = 1 / std::sqrt(std::abs(there));
       }
       if (!isApart || negatives != k) break;
       Symmetric rest = congruent(d, b0);
@@ -472,7 +604,7 @@ std::vector<Interval> EigenvalueBounds::beside(const Program& near, const Progra
       q = (Interval(q) + Interval(normOf(rest))).upper();
       // Or by what polynomials know of the entries at c, which move with it.
       const Interval* first = own + 3 + 2 * f;
-      if (const Symmetric atC(f, {first, first + of.triangle}); f > 1 && atC.isKnown()) {
+      if (const Symmetric atC(f, {first, first + triangle}); f > 1 && atC.isKnown()) {
         Symmetric entries = congruent(d, atC);
         for (int i = 0; i < f - 1; ++i) entries(i, i) -= Interval(i < k ? -1.0 : 1.0);
         q = std::min(
@@ -488,11 +620,117 @@ std::vector<Interval> EigenvalueBounds::beside(const Program& near, const Progra
       const double needed =
           ((Interval(magnitude(own[1])) + square / (Interval(1.0) - Interval(q))) / Interval(own[2].lower())).upper();
       if (needed < delta || (needed == 0 && delta == 0)) {
-        result.back() = intersection(loose, Interval(-delta, delta));
+        result.off.back() = intersection(loose, Interval(-delta, delta));
+        result.ranges[w] = intersection(ranges[w], own[0] + result.off.back());
         break;
       }
       delta = 1.01 * needed + 1e-300;
     }
+  }
+  return result;
+}
+
+struct EigenvalueBounds::Parts {
+  Pencil pencil;
+  std::optional<Pencil> unit;  // where slopes of M do not tell that it is positive
+  std::unique_ptr<const Piece> whole;
+  std::vector<std::unique_ptr<const Piece>> pieces;  // of the latter
+  bool isKnown = false;
+
+  Parts(Pencil itsPencil, const Box& parameters) : pencil(std::move(itsPencil)) {
+    whole = std::make_unique<const Piece>(pencil, parameters);
+    isKnown = whole->isMassPositive;
+    if (isKnown || !whole->hasSlopes || !pencil.arePivotsPositive(parameters)) return;
+    unit.emplace(pencil.withUnitMass(parameters));
+    divide(parameters);
+    isKnown = std::ranges::all_of(pieces, [](const auto& piece) { return piece->isMassPositive; });
+  }
+
+  static std::array<Box, 2> halvesOf(const Box& box, int by) {
+    std::array<Box, 2> halves{box, box};
+    const double middle = midpoint(box[by]);
+    halves[0][by] = Interval(box[by].lower(), middle);
+    halves[1][by] = Interval(middle, box[by].upper());
+    return halves;
+  }
+  static double mostPieces(const Pencil& of, double atMost) {
+    constexpr double cost = 1024;  // f² a piece, in all
+    return std::clamp(cost / static_cast<double>(of.f * of.f), 1.0, atMost);
+  }
+
+  /// Each time the piece that quantities move most, by the one that does.
+  void divide(const Box& parameters) {
+    constexpr double few = 32;  // each by polynomials of high degree
+    pieces.push_back(std::make_unique<const Piece>(*unit, parameters));
+    while (static_cast<double>(pieces.size()) < mostPieces(*unit, few)) {
+      auto& open = *std::ranges::max_element(pieces, {}, [](const auto& piece) { return piece->moved(); });
+      const int by = open->mover();
+      if (isThin(open->parameters[by])) break;
+      std::array<Box, 2> halves = halvesOf(open->parameters, by);
+      open = std::make_unique<const Piece>(*unit, std::move(halves[0]));
+      pieces.push_back(std::make_unique<const Piece>(*unit, std::move(halves[1])));
+    }
+  }
+};
+
+EigenvalueBounds::EigenvalueBounds(const Program& pencil, const Program& root, const std::vector<double>& basis,
+                                   const Box& parameters, const Box& open, const Open& openAt)
+    : parts_(std::make_unique<const Parts>(Pencil(pencil, root, basis, open, openAt), parameters)) {}
+
+EigenvalueBounds::~EigenvalueBounds() = default;
+
+std::vector<Interval> EigenvalueBounds::ranges(const std::vector<int>& numbers, const Box& part) const {
+  std::vector<Interval> ranges(numbers.size(), Interval::entire());
+  if (!parts_->isKnown) return ranges;
+  if (parts_->pieces.empty()) return parts_->whole->ranges(numbers, part);
+  std::ranges::fill(ranges, Interval::empty());
+  for (const auto& piece : parts_->pieces) {
+    Box own;
+    for (std::size_t i = 0; i < part.size(); ++i) own.push_back(intersection(part[i], piece->parameters[i]));
+    if (std::ranges::any_of(own, [](const Interval& each) { return isEmpty(each); })) continue;
+    const std::vector<Interval> found = piece->ranges(numbers, own);
+    for (std::size_t k = 0; k < ranges.size(); ++k) ranges[k] = hull(ranges[k], found[k]);
+  }
+  return ranges;
+}
+
+EigenvalueBounds::Beside EigenvalueBounds::beside(const Program& near, const Program& shapes,
+                                                  const std::vector<int>& numbers,
+                                                  const std::vector<Interval>& ranges) const {
+  const std::size_t count = numbers.size();
+  if (!parts_->isKnown) return {std::vector<Interval>(count, Interval::entire()), ranges};
+  Beside result = parts_->whole->beside(near, shapes, numbers, ranges);
+  constexpr double most = 0.1;  // of an eigenvalue's range
+  const auto isClose = [&](const Beside& found, std::size_t k) {
+    return width(found.off[k]) <= most * width(ranges[k]);
+  };
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < count; ++k)
+    if (!isClose(result, k)) open.push_back(k);
+  if (open.empty() || parts_->pieces.empty()) return result;
+  // On pieces, each halved by the quantity that moves the pencil most as long as there are few.
+  Beside all{std::vector<Interval>(count, Interval::empty()), std::vector<Interval>(count, Interval::empty())};
+  std::deque<Box> left{parts_->whole->parameters};
+  const double mostTried = Parts::mostPieces(parts_->pencil, 128);
+  for (double tried = 0; !left.empty(); ++tried) {
+    const Piece piece(parts_->pencil, left.front());
+    left.pop_front();
+    const Beside own =
+        tried == 0 ? result : piece.beside(near, shapes, numbers, this->ranges(numbers, piece.parameters));
+    const int by = piece.mover();
+    if (tried + static_cast<double>(left.size()) < mostTried && !isThin(piece.parameters[by]) &&
+        !std::ranges::all_of(open, [&](std::size_t k) { return isClose(own, k); })) {
+      for (Box& half : Parts::halvesOf(piece.parameters, by)) left.push_back(std::move(half));
+      continue;
+    }
+    for (const std::size_t k : open) {
+      all.off[k] = hull(all.off[k], own.off[k]);
+      all.ranges[k] = hull(all.ranges[k], own.ranges[k]);
+    }
+  }
+  for (const std::size_t k : open) {
+    result.off[k] = intersection(result.off[k], all.off[k]);
+    result.ranges[k] = intersection(result.ranges[k], all.ranges[k]);
   }
   return result;
 }

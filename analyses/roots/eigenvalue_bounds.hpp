@@ -8,7 +8,9 @@
 //   K − σM ⪰ (K − σM)(a) − Σ w_i B_i (or A_i, from an upper end),   w_i the width of p_i,
 //
 // and likewise from above. Of stiffnesses and masses of one sign B_i or A_i is nothing, so that the bounds are the
-// eigenvalues at two corners.
+// eigenvalues at two corners. Where M is not proved so to be positive definite, as of pendulums of uncertain lengths,
+// it is by its pivots over the box, and the bounds are those of the pencil that they make of it, of which M is 1, on
+// pieces.
 #pragma once
 
 #include <functional>
@@ -35,12 +37,17 @@ class EigenvalueBounds {
   /// Of eigenvalues of so many numbers, which are above zero, over a part of the box; entire where nothing is proved.
   std::vector<Interval> ranges(const std::vector<int>& numbers, const Box& part) const;
 
-  /// λ − c(p) of eigenvalues of so many numbers, whose `ranges` are known. `near`: of parameters, each c; `shapes`: x
-  /// of each, whose vector is about Φx and whose component of its own number is 1.
-  std::vector<Interval> beside(const Program& near, const Program& shapes, const std::vector<int>& numbers,
-                               const std::vector<Interval>& ranges) const;
+  struct Beside {
+    std::vector<Interval> off;     ///< λ − c(p)
+    std::vector<Interval> ranges;  ///< λ
+  };
+  /// Of eigenvalues of so many numbers, whose `ranges` are known. `near`: of parameters, each c; `shapes`: x of each,
+  /// whose vector is about Φx and whose component of its own number is 1.
+  Beside beside(const Program& near, const Program& shapes, const std::vector<int>& numbers,
+                const std::vector<Interval>& ranges) const;
 
  private:
+  struct Piece;
   struct Parts;
   std::unique_ptr<const Parts> parts_;
 };
