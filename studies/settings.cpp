@@ -224,7 +224,8 @@ void describeLimits(Settings& s, Study& study) {
              value);
   };
   share("cuts",
-        "what alpha-cuts' own flows may cost, in times what enclosure and samples cost, which count as 2.5 s at least",
+        "what alpha-cuts' own flows may cost, in times what enclosure and samples cost, which count as 2.5 s at least "
+        "(at rest: 1 s)",
         "0.5", study.shares.cuts);
   share("requirements", "the same of requirements", "0.8", study.shares.requirements);
   share(

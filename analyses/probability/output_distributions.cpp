@@ -28,30 +28,32 @@ void OutputDistributions::find(TightenedSurrogate& surrogate, ModelMasses& masse
     isLimited_ = isLimited_ || (found_[i].gap > options_.gap && tried_[i].isLimited);
 }
 
+double OutputDistributions::leftByErrors(const TightenedSurrogate& surrogate, std::size_t i) const {
+  constexpr double part = 0.05, density = 2.5;  // about, of an output that is 1 wide
+  const std::size_t k = i % outputs();
+  const auto* parts = surrogate.partsAt(rows_[i / outputs()]);
+  if (parts == nullptr) return 0;
+  Interval all = Interval::empty();
+  double off = 0;
+  for (const SurrogatePart& each : *parts) {
+    const OutputModel& model = each.outputs[k];
+    all = hull(all, model.bound);
+    double varies = model.c.empty() ? width(model.bound) : 0;
+    for (std::size_t g = 1; g < model.c.size(); ++g) varies += std::fabs(model.c[g]);
+    const double radius = model.c.empty() ? varies : model.radius;
+    if (radius > surrogate.negligible(k) && radius > part * options_.gap * varies) off = std::max(off, radius);
+  }
+  return off > 0 ? density * 2 * off / width(all) : 0;
+}
+
 bool OutputDistributions::isVague(const TightenedSurrogate& surrogate) const {
-  constexpr double part = 0.05, mostly = 0.3, density = 2.5;  // about, of an output that is 1 wide
-  for (std::size_t at = 0; at < rows_.size(); ++at) {
-    const auto* parts = surrogate.partsAt(rows_[at]);
-    if (parts == nullptr) return true;
-    for (std::size_t k = 0; k < outputs(); ++k) {
-      if (nothing_[k] != 0) continue;
-      const DistributionBounds& bounds = found_[at * outputs() + k];
-      Interval all = Interval::empty();
-      double off = 0;
-      for (const SurrogatePart& each : *parts) {
-        const OutputModel& model = each.outputs[k];
-        double varies = model.c.empty() ? width(model.bound) : 0;
-        for (std::size_t g = 1; g < model.c.size(); ++g) varies += std::fabs(model.c[g]);
-        const double radius = model.c.empty() ? varies : model.radius;
-        if (radius <= surrogate.negligible(k) || radius <= part * options_.gap * varies) continue;
-        off = std::max(off, radius);
-        all = hull(all, model.bound);
-      }
-      if (off == 0) continue;
-      for (const SurrogatePart& each : *parts) all = hull(all, each.outputs[k].bound);
-      const bool isMost = bounds.value.empty() || density * 2 * off > mostly * bounds.gap * width(all);
-      if (isMost && (bounds.value.empty() || bounds.gap > options_.gap)) return true;
-    }
+  constexpr double mostly = 0.3;
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    if (surrogate.partsAt(rows_[i / outputs()]) == nullptr) return true;
+    if (nothing_[i % outputs()] != 0) continue;
+    const DistributionBounds& bounds = found_[i];
+    const double left = leftByErrors(surrogate, i);
+    if (left > 0 && (bounds.value.empty() || (left > mostly * bounds.gap && bounds.gap > options_.gap))) return true;
   }
   return false;
 }
@@ -80,8 +82,9 @@ void OutputDistributions::boundAll(const TightenedSurrogate& surrogate, ModelMas
   const double all = share * (1 - forOthers) * options_.workLeft(), least = options_.workLeft() - all;
   for (double gap = coarsest; !isCancelled(); gap = std::max(0.5 * gap, finest)) {
     std::vector<std::size_t> open;
+    constexpr double hopeless = 2;  // as many times all there is
     for (std::size_t i = 0; i < found_.size(); ++i)
-      if (found_[i].gap > gap && tried_[i].mayHelp) open.push_back(i);
+      if (found_[i].gap > gap && tried_[i].mayHelp && leftByErrors(surrogate, i) < hopeless) open.push_back(i);
     std::ranges::stable_sort(open, std::greater<>(), [&](std::size_t i) { return found_[i].gap; });
     // Some together, as many however many threads there are; what they leave, those behind them have.
     constexpr std::size_t together = 8;
@@ -124,8 +127,11 @@ void OutputDistributions::boundThese(std::span<const std::size_t> these, const T
       tried.isLimited = bounds.isLimited;
       tried.mayHelp = !isFinest || (bounds.isLimited && work > hardlyMore * tried.work);
       tried.work = isFinest ? work : 0;
+      constexpr double nearlyAll = 0.6;
       if (!bounds.value.empty() && (found_[i].value.empty() || bounds.gap < found_[i].gap))
         found_[i] = std::move(bounds);
+      if (!found_[i].value.empty() && leftByErrors(surrogate, i) > nearlyAll * found_[i].gap)
+        tried.isLimited = tried.mayHelp = false;  // finer cells would know hardly more
       if (options_.progress) options_.progress(static_cast<double>(++done) / static_cast<double>(these.size()));
     };
   });

@@ -46,6 +46,8 @@ class OutputDistributions {
   bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
   std::size_t outputs() const { return nothing_.size(); }
   bool tighten(TightenedSurrogate& surrogate);
+  /// How far apart errors of the polynomials alone keep the i-th bounds, about.
+  double leftByErrors(const TightenedSurrogate& surrogate, std::size_t i) const;
   void boundAll(const TightenedSurrogate& surrogate, ModelMasses& masses, double share, double coarsest, double finest);
   void boundThese(std::span<const std::size_t> these, const TightenedSurrogate& surrogate, const JointMasses& masses,
                   double gap, double work);

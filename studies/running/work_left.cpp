@@ -5,7 +5,11 @@
 
 namespace gamut {
 
-double Run::basis() const { return std::max(spent.enclosure + spent.samples, Shares::least * Work::perSecond); }
+double Run::basis() const {
+  constexpr double leastAtRest = 1;  // s, where nothing is integrated
+  const double least = study.analysis == Study::Analysis::equilibria ? leastAtRest : Shares::least;
+  return std::max(spent.enclosure + spent.samples, least * Work::perSecond);
+}
 
 double workForRequirements(const Run& run) {
   const Shares& shares = run.study.shares;
