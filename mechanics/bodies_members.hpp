@@ -15,12 +15,12 @@ void MassElement<S>::doMotion(MotionLevel level) {
 
 template <class S>
 void MassElement<S>::doForce(ForceKind kind) {
-  if (kind != ForceKind::applied) {
+  if (hasInertia(kind)) {
     const Vector3<S> force = mass_ * a_;
     at_->f -= force;
     at_->tau -= inertia_ * at_->omegaDot + centre_.cross(force);
   }
-  if (kind != ForceKind::inertia) at_->tau -= at_->omega.cross(inertia_ * at_->omega);
+  if (hasLoads(kind)) at_->tau -= at_->omega.cross(inertia_ * at_->omega);
 }
 
 template <class S>

@@ -31,8 +31,12 @@ enum class MotionLevel {
 enum class ForceKind {
   all,      ///< inertia and applied forces
   applied,  ///< loads and gyroscopic moments
+  smooth,   ///< these without dry friction along speeds that have a leader
   inertia,  ///< −m a and −Θ ω̇ alone: the answer to MotionLevel::acceleration
 };
+
+constexpr bool hasInertia(ForceKind kind) { return kind == ForceKind::all || kind == ForceKind::inertia; }
+constexpr bool hasLoads(ForceKind kind) { return kind != ForceKind::inertia; }
 
 template <class S>
 class Element {
@@ -108,7 +112,11 @@ class Gear final : public Gearing<S> {
 
   void doMotion(MotionLevel level = MotionLevel::all) override {
     if (level != MotionLevel::acceleration) to_.position = ratio_ * from_.position + offset_;
-    if (level == MotionLevel::all) to_.rate = ratio_ * from_.rate;
+    if (level == MotionLevel::all) {
+      to_.rate = ratio_ * from_.rate;
+      to_.leader = from_.leader;
+      if (from_.leader != nullptr) to_.ratio = ratio_ * from_.ratio;
+    }
     if (level != MotionLevel::position) to_.acceleration = ratio_ * from_.acceleration;
   }
   void doForce(ForceKind = ForceKind::all) override { from_.force += ratio_ * to_.force; }
@@ -119,18 +127,30 @@ class Gear final : public Gearing<S> {
   S ratio_, offset_;
 };
 
+/// Dry friction along a speed: −strength · direction().
+template <class S>
+struct DryFriction {
+  const Speed<S>* speed;
+  S strength;
+};
+
 /// An element that acts on frames and speeds, by what their positions and velocities are.
 template <class S>
 class Load : public Element<S> {
  public:
   void doMotion(MotionLevel /*level*/ = MotionLevel::all) override {}
   void doForce(ForceKind kind = ForceKind::all) final {
-    if (kind != ForceKind::inertia) applyForce();
+    if (kind == ForceKind::smooth) applySmoothForce();
+    if (kind == ForceKind::all || kind == ForceKind::applied) applyForce();
   }
+
+  /// What ForceKind::smooth leaves out.
+  virtual std::vector<DryFriction<S>> dryFriction() const { return {}; }
 
  protected:
   /// Adds its forces to those of frames and speeds. Accelerations must not enter: what they move is an Inertia.
   virtual void applyForce() = 0;
+  virtual void applySmoothForce() { applyForce(); }
 };
 
 /// The weight w of rows k and l in the inertia quadratic form ½ Σ w a_k a_l of the bodies' accelerations; an
@@ -218,6 +238,7 @@ class Chain final : public Element<S> {
   const std::vector<Element<S>*>& elements() const { return elements_; }
   const std::vector<Inertia<S>*>& inertias() const { return inertias_; }
   const std::vector<Constraint<S>*>& constraints() const { return constraints_; }
+  const std::vector<Load<S>*>& loads() const { return loads_; }
   /// Whether some frames move by speeds of joints that they do not hang on.
   bool hasGears() const { return hasGears_; }
 
@@ -225,6 +246,7 @@ class Chain final : public Element<S> {
   std::vector<Element<S>*> elements_;
   std::vector<Inertia<S>*> inertias_;
   std::vector<Constraint<S>*> constraints_;
+  std::vector<Load<S>*> loads_;
   bool hasGears_ = false;
 };
 

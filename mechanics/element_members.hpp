@@ -49,6 +49,7 @@ Chain<S>& Chain<S>::operator<<(Element<S>& element) {
   elements_.push_back(&element);
   if (auto* inertia = dynamic_cast<Inertia<S>*>(&element)) inertias_.push_back(inertia);
   if (auto* constraint = dynamic_cast<Constraint<S>*>(&element)) constraints_.push_back(constraint);
+  if (auto* load = dynamic_cast<Load<S>*>(&element)) loads_.push_back(load);
   hasGears_ = hasGears_ || dynamic_cast<Gearing<S>*>(&element) != nullptr;
   return *this;
 }

@@ -21,7 +21,7 @@ class ReflectedInertia final : public Inertia<S> {
 
   void doMotion(MotionLevel /*level*/ = MotionLevel::all) override {}
   void doForce(ForceKind kind = ForceKind::all) override {
-    if (kind != ForceKind::applied) speed_.force -= inertia_ * speed_.acceleration;
+    if (hasInertia(kind)) speed_.force -= inertia_ * speed_.acceleration;
   }
   S kineticEnergy() const override { return S(0.5) * (inertia_ * square(speed_.rate)); }
   void collectRows(std::vector<S>& accelerations, std::vector<InertiaWeight<S>>& weights) const override {

@@ -20,10 +20,17 @@ struct Speed {
   Speed(const Speed&) = delete;
   Speed& operator=(const Speed&) = delete;
 
+  /// The sign of the rate. A multiple of another speed has that one's, and the multiple's own: so all friction of a
+  /// linkage with one freedom jumps with one sign.
+  S direction() const { return leader == nullptr ? signOf(rate) : S(signOf(ratio) * signOf(leader->rate)); }
+
   S rate = S(0.0);
   S acceleration = S(0.0);
   S force = S(0.0);
   std::string name;
+  /// Where the rate is known to be a multiple of that of an independent speed: rate = ratio · leader->rate.
+  const Speed* leader = nullptr;
+  S ratio = S(1.0);
 };
 
 /// A coordinate q whose rate is its speed, q̇ = u: an angle [rad, rad/s, rad/s², N m] or a displacement [m, m/s, m/s²,

@@ -20,14 +20,38 @@ std::vector<Fault> faultsOfFriction(const std::string& name, const Expression& c
   return {{"coulomb", "the Coulomb friction of '" + name + "' is negative", "at least 0"}};
 }
 
+template <class S>
+class JointFrictionLoad final : public Load<S> {
+ public:
+  JointFrictionLoad(Variable<S>& variable, S dry, S wet)
+      : variable_(variable), dry_(std::move(dry)), wet_(std::move(wet)) {}
+
+  S force() const { return -(dry_ * variable_.direction()) - wet_ * variable_.rate; }
+  S power() const { return force() * variable_.rate; }
+  std::vector<DryFriction<S>> dryFriction() const override { return {{&variable_, dry_}}; }
+
+ private:
+  void applyForce() override { variable_.force += force(); }
+  void applySmoothForce() override {
+    if (variable_.leader == nullptr)
+      applyForce();
+    else
+      variable_.force -= wet_ * variable_.rate;
+  }
+
+  Variable<S>& variable_;
+  S dry_, wet_;
+};
+
 }  // namespace
 
 void JointFriction::describe(Fields& f) { describeCoordinateLoad(f, describeFriction(f, joint, coulomb, viscous)); }
 
 template <class S>
 void JointFriction::assemble(Assembler<S>& a) const {
-  const S dry = a.number(coulomb), wet = a.number(viscous);
-  addCoordinateLoad(a, joint, [dry, wet](const Variable<S>& q) { return S(-(dry * signOf(q.rate)) - wet * q.rate); });
+  const auto& load = a.template add<JointFrictionLoad<S>>(a.coordinate(joint), a.number(coulomb), a.number(viscous));
+  a.measure("force", [&load] { return load.force(); });
+  a.measure("power", [&load] { return load.power(); });
 }
 
 std::vector<Fault> JointFriction::faults(const RangeOf& rangeOf) const {

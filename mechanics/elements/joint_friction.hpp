@@ -10,7 +10,9 @@ struct JointFriction {
   static constexpr const char* type = "joint-friction";
   static constexpr int order = 180;  ///< in the documentation
   static constexpr const char* summary =
-      "Coulomb and viscous friction on a joint; where it holds the joint, it holds it fast, with what force that takes";
+      "Coulomb and viscous friction on a joint; where it holds the joint, it holds it fast, with what force that "
+      "takes. In a loop that one coordinate moves, friction in any of its joints turns round, and holds, with that "
+      "coordinate: each then bears the same share of what it can";
 
   std::string name, joint;
   Expression coulomb = 0.0, viscous = 0.0;  ///< N m or N, N m s/rad or N s/m

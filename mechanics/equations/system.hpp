@@ -159,6 +159,14 @@ class System {
   /// The same where all rows have a dependent speed: u̇ = T u̇_i + γ, with J T = 0, and Tᵀ M T u̇_i = Tᵀ (Q − M γ).
   std::vector<S> projected();
 
+  /// Says of speeds which are multiples of one independent speed: by `along`, the columns of T, and what of dependent
+  /// rates is there without these speeds.
+  void lead(const std::vector<std::vector<S>>& along, const std::vector<S>& driven);
+
+  /// Adds to the loads of independent speeds w_j the dry friction along all speeds r w_j that they lead,
+  /// −(Σ strength |r|) sign w_j: at w_j = 0 all of it jumps at once, and where r is zero it has a kink alone.
+  void holdDry(std::vector<S>& loads) const;
+
   /// The columns of T, got from unit accelerations whose dependent ones hold still what they can.
   std::vector<std::vector<S>> tangents(const LinearSystem<S>& rows);
 

@@ -287,6 +287,7 @@ void System<S>::close() {
   std::vector<S> independent;
   for (std::size_t j = 0; j < f && isByTangents; ++j)
     independent.push_back(std::exchange(speeds_[j].get().rate, S(0.0)));
+  for (Speed<S>& speed : speeds_) speed.leader = nullptr;
   for (Speed<S>& speed : dependent) speed.rate = S(0.0);
   setAccelerations(zeros());
   doMotion();
@@ -296,6 +297,7 @@ void System<S>::close() {
   rows.solve(rates);
   if (isByTangents) {
     const std::vector<std::vector<S>> along = tangents(rows);
+    lead(along, rates);
     for (std::size_t j = 0; j < f; ++j) {
       speeds_[j].get().rate = independent[j];
       for (std::size_t i = 0; i < dependents_; ++i) rates[i] = rates[i] + along[j][f + i] * independent[j];
@@ -306,10 +308,37 @@ void System<S>::close() {
 }
 
 template <class S>
+void System<S>::lead(const std::vector<std::vector<S>>& along, const std::vector<S>& driven) {
+  const std::size_t f = along.size();
+  for (std::size_t i = 0; i < speeds_.size(); ++i) {
+    Speed<S>& speed = speeds_[i];
+    if (i >= f && !isKnownZero(driven[i - f])) continue;
+    const auto moves = [&](const std::vector<S>& tangent) { return !isKnownZero(tangent[i]); };
+    if (i >= f && std::ranges::count_if(along, moves) != 1) continue;
+    const std::size_t j = i < f ? i : static_cast<std::size_t>(std::ranges::find_if(along, moves) - along.begin());
+    speed.leader = &speeds_[j].get();
+    speed.ratio = i < f ? S(1.0) : along[j][i];
+  }
+}
+
+template <class S>
 std::vector<S> System<S>::opening() {
   std::vector<S> rows = residuals();
   dependentRows().solve(rows);
   return rows;
+}
+
+template <class S>
+void System<S>::holdDry(std::vector<S>& loads) const {
+  using std::abs;
+  for (std::size_t j = 0; j < loads.size(); ++j) {
+    const Speed<S>& leader = speeds_[j];
+    S strength(0.0);
+    for (const Load<S>* load : chain_.loads())
+      for (const DryFriction<S>& each : load->dryFriction())
+        if (each.speed->leader == &leader) strength = strength + each.strength * abs(each.speed->ratio);
+    if (!isKnownZero(strength)) loads[j] = loads[j] - strength * signOf(leader.rate);
+  }
 }
 
 template <class S>
@@ -344,10 +373,11 @@ std::vector<S> System<S>::projected() {
     }
     setAccelerations(zeros());
     doMotion();
-    doForce(ForceKind::applied);
+    doForce(ForceKind::smooth);
     const std::vector<S> forces = generalisedForces();
     std::vector<S> loads;
     for (const std::vector<S>& tangent : tangents) loads.push_back(along(tangent, forces));
+    holdDry(loads);
     result = leastConstraint(std::move(columns), bodyAccelerations(gamma), std::move(loads), inertiaWeights());
   } else {
     setAccelerations(gamma);
