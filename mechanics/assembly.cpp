@@ -74,7 +74,8 @@ bool dependOn(const std::vector<Recorded>& values, Is is) {
 
 template <class S>
 Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
-                      std::span<const S> values) {
+                      std::span<const S> values)
+    : areLoopsHeld_(mechanism.areLoopsHeld()) {
   mechanism.check();
   takeNumbers(mechanism, freeParameters, values);
   for (const std::string& name : mechanism.frames()) parts_.frames_.emplace(name, std::make_unique<Frame<S>>(name));
@@ -99,7 +100,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
       states_.push_back(&variable->second->position);
       coordinates_.push_back(variable->second);
       const auto dependent = std::ranges::find(mechanism.dependents(), names[i]) - mechanism.dependents().begin();
-      if (mechanism.coordinates().find(names[i])->isDependent)
+      if (mechanism.coordinates().find(names[i])->isDependent && !areLoopsHeld_)
         positionRates_.push_back([this, moved = variable->second, dependent] {
           return moved->rate - S(System<S>::pull) * opening_[dependent];
         });
@@ -111,7 +112,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
     }
   }
   for (const std::string& name : mechanism.dependents()) {
-    speeds.push_back(*parts_.variables_.at(name));
+    if (!areLoopsHeld_) speeds.push_back(*parts_.variables_.at(name));
     dependents_.push_back(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
   }
   const auto& gravity = mechanism.gravity();
@@ -120,7 +121,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   if (const auto& shaking = mechanism.baseAcceleration())
     system_->shake([of = std::array{parts_.signal((*shaking)[0]), parts_.signal((*shaking)[1]),
                                     parts_.signal((*shaking)[2])}] { return Vector3<S>(of[0](), of[1](), of[2]()); });
-  system_->depend(dependents_.size());
+  system_->depend(dependents_.size(), areLoopsHeld_);
   unfoldEnds(mechanism);
   parts_.solve_ = [this] { solve(); };
   measureFrames();
@@ -178,6 +179,21 @@ std::vector<S> Assembly<S>::closingMap(std::span<const S> delta) {
   std::vector<S> at;
   for (std::size_t i = 0; i < dependents_.size(); ++i) at.push_back(initialState_[dependents_[i]] + delta[i]);
   std::vector<S> image = rowsAtStart(at);
+  rows.solve(image);
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = delta[i] - image[i];
+  return image;
+}
+
+template <class S>
+std::vector<S> Assembly<S>::closingRatesMap(std::span<const S> delta, std::span<const S> positions) {
+  placeAtStart();
+  const LinearSystem<S> rows = system_->dependentRows();
+  for (std::size_t i = 0; i < dependents_.size(); ++i) {
+    *states_[dependents_[i]] = initialState_[dependents_[i]] + positions[i];
+    *states_[rateOfDependent(i)] = initialState_[rateOfDependent(i)] + delta[i];
+  }
+  system_->doMotion();
+  std::vector<S> image = system_->openingRates();
   rows.solve(image);
   for (std::size_t i = 0; i < image.size(); ++i) image[i] = delta[i] - image[i];
   return image;
@@ -267,11 +283,25 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism, const std::vector<std::
     for (int i = 0; i < steps; ++i) at = moved(at, openingAt(at), 1);
     for (std::size_t i = 0; i < at.size(); ++i) initialState_[dependents_[i]] = origin_[dependents_[i]] = at[i];
   }
+  closeRates();
+}
+
+/// Initial rates of dependent coordinates, where they are states.
+template <class S>
+void Assembly<S>::closeRates() {
+  if (!areLoopsHeld_) return;
+  placeAtStart();
+  system_->close();
+  for (std::size_t i = 0; i < dependents_.size(); ++i) {
+    const std::size_t rate = rateOfDependent(i);
+    initialState_[rate] = origin_[rate] = *states_[rate];
+  }
 }
 
 /// Loops that close as triangles do.
 template <class S>
 void Assembly<S>::findTriangles(const Mechanism& mechanism) {
+  if (areLoopsHeld_) return;
   if (chain_.constraints().size() != mechanism.loops().size()) return;  // others close it besides
   std::size_t first = 0, number = 0;
   for (const Mechanism::Closed& loop : mechanism.loops()) {
@@ -475,7 +505,7 @@ void Assembly<S>::setState(std::span<const S> x, const S& time) {
   for (auto& [name, speed] : parts_.speeds_) speed->acceleration = S(0.0);
   releaseTriangles();
   if (placesTriangles_) placeTriangles();
-  system_->close();
+  if (!areLoopsHeld_) system_->close();
   system_->doMotion();
   opening_.clear();
   known_ = Known::state;
@@ -554,10 +584,11 @@ void Assembly<S>::solve() {
 template <class S>
 std::vector<S> Assembly<S>::rates(Formulation formulation) {
   std::vector<S> result;
-  if (!dependents_.empty()) opening_ = opening();
+  if (!dependents_.empty() && !areLoopsHeld_) opening_ = opening();
   for (const Signal<S>& rate : positionRates_) result.push_back(rate());
   const std::vector<S> found = accelerations(formulation);
-  result.insert(result.end(), found.begin(), found.end() - static_cast<std::ptrdiff_t>(dependents_.size()));
+  const std::size_t following = areLoopsHeld_ ? 0 : dependents_.size();
+  result.insert(result.end(), found.begin(), found.end() - static_cast<std::ptrdiff_t>(following));
   for (const Signal<S>& rate : ownRates_) result.push_back(rate());
   return result;
 }

@@ -68,6 +68,8 @@ class Assembly {
   /// Newton's map at the start, about where the dependent coordinates are: δ − J⁻¹ g(. + δ), J at δ = 0. Its fixed
   /// points are what the loops are closed at.
   std::vector<S> closingMap(std::span<const S> delta);
+  /// The same for their rates where loops are held, `positions` being what the coordinates are off by.
+  std::vector<S> closingRatesMap(std::span<const S> delta, std::span<const S> positions);
   /// The loops' rows at the start, dependent coordinates being there.
   std::vector<S> rowsAtStart(std::span<const S> dependents);
 
@@ -89,6 +91,10 @@ class Assembly {
   template <class Other>
   friend class Assembly;
 
+  /// Of a dependent coordinate of loops that are held, its rate among the states.
+  std::size_t rateOfDependent(std::size_t i) const {
+    return states_.size() - ownRates_.size() - dependents_.size() + i;
+  }
   void takeNumbers(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                    std::span<const S> values);
   void makeStates(const Mechanism& mechanism);
@@ -97,6 +103,7 @@ class Assembly {
   void unfoldEnds(const Mechanism& mechanism);
   void closeLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                   std::span<const S> values);
+  void closeRates();
   void findTriangles(const Mechanism& mechanism);
   void placeTriangles();
   void releaseTriangles();
@@ -133,6 +140,7 @@ class Assembly {
   };
   std::vector<Loop> loops_;
   bool placesTriangles_ = false;          // by the next states
+  bool areLoopsHeld_ = false;             // by multipliers: rates of dependent coordinates are states too
   std::vector<S> initialState_, origin_;  // the second: what differences of states are from; else zero
   Known known_ = Known::state;
 };

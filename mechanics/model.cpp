@@ -84,6 +84,18 @@ Program recordClosing(const Mechanism& mechanism, const std::vector<std::string>
                 });
 }
 
+Program recordClosingRates(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
+  const std::size_t dependents = mechanism.dependents().size();
+  const auto n = static_cast<int>(dependents);
+  return record(n, static_cast<int>(freeParameters.size()) + n, n,
+                [&](auto, const auto& delta, const auto& p, auto& y) {
+                  const std::span<const Recorded> numbers(p);
+                  Assembly<Recorded> assembly(mechanism, freeParameters, numbers.first(freeParameters.size()));
+                  const std::vector<Recorded> image = assembly.closingRatesMap(delta, numbers.last(dependents));
+                  for (std::size_t i = 0; i < image.size(); ++i) y[i] = image[i];
+                });
+}
+
 Program recordApproach(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
   Assembly<double> nominal(mechanism);
   const LinearSystem<double> rows = nominal.system().dependentRows();

@@ -29,6 +29,9 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
 /// Newton's map of the loops at the start (Assembly::closingMap), of n differences as states, one a dependent
 /// coordinate, and of the named parameters.
 Program recordClosing(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
+/// The same of their rates, where loops are held (Assembly::closingRatesMap): further parameters are what the positions
+/// are off by.
+Program recordClosingRates(const Mechanism& mechanism, const std::vector<std::string>& freeParameters);
 
 /// A step towards where loops close at the start, of n differences from where those of the nominal machine do, as
 /// states, and of the named parameters: δ − J⁻¹ g(. + δ), J the nominal machine's in doubles. Each step finds one more

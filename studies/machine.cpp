@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -269,16 +270,19 @@ struct ClosedBox {
   std::shared_ptr<const EigenvalueBounds> vibrations;
 };
 
-/// For all values of the box: loops are proved to close, or position and modes of rest to exist.
-ClosedBox closedBox(const Machine& machine, Box other) {
+/// For all values of the box: loops are proved to close, or position and modes of rest to exist. `known`: what the
+/// first family leaves open, where that is known already.
+ClosedBox closedBox(const Machine& machine, Box other, const Box& known = {}) {
   ClosedBox closed{std::move(other), nullptr};
   Box parameters = parametersIn(machine, closed.box), open;
   const Box own = parameters;
   auto slot = machine.remainders.begin();
   for (const Program& newton : machine.closing) {
     const bool isFirst = slot == machine.remainders.begin();
-    const RootFamily family = proveRoots(newton, parameters, static_cast<int>(machine.freeParameters.size()),
-                                         isFirst ? 1e-9 : 1.0, withinAMinute());
+    const RootFamily family = isFirst && !known.empty()
+                                  ? RootFamily{known, {}, {}}
+                                  : proveRoots(newton, parameters, static_cast<int>(machine.freeParameters.size()),
+                                               isFirst || !machine.rest ? 1e-9 : 1.0, withinAMinute());
     if (family.remainder.empty()) {
       if (machine.rest) refuseUnprovedRest(machine.study, machine.freeParameters, *family.open, isFirst);
       refuseOpenLoops(machine.study, machine.freeParameters, *family.open);
@@ -310,8 +314,9 @@ ClosedBox closedBox(const Machine& machine, Box other) {
   return closed;
 }
 
-/// Dependent coordinates start at what is left between Newton's steps and the closed loops, for all values of the box;
-/// at rest all numbers are of this kind. `open`: what that is, where it is known already.
+/// Dependent coordinates, and rates that depend on others, start at what is left between Newton's steps and the closed
+/// loops, for all values of the box; at rest all numbers are of this kind. `open`: what that is, where it is known
+/// already.
 void closeFamilies(Machine& machine, const Box& open) {
   const Mechanism& mechanism = machine.study.mechanism;
   if (machine.rest) {
@@ -320,16 +325,18 @@ void closeFamilies(Machine& machine, const Box& open) {
   } else if (mechanism.isClosed()) {
     machine.closing = {recordClosing(mechanism, machine.freeParameters)};
     refuseVaryingLoops(machine.study, machine.freeParameters);
+    std::vector<std::string> dependents = mechanism.dependents();
+    if (mechanism.areLoopsHeld()) {
+      machine.closing.push_back(recordClosingRates(mechanism, machine.freeParameters));
+      std::ranges::move(mechanism.dependentRates(), std::back_inserter(dependents));
+    }
     const std::vector<std::string> names = mechanism.stateNames();
-    for (const std::string& dependent : mechanism.dependents())
+    for (const std::string& dependent : dependents)
       machine.remainders.push_back(static_cast<int>(std::ranges::find(names, dependent) - names.begin()));
   }
-  if (open.empty()) {
-    ClosedBox closed = closedBox(machine, std::move(machine.box));
-    machine.box = std::move(closed.box);
-    machine.vibrations = std::move(closed.vibrations);
-  }
-  for (std::size_t i = 0; i < open.size(); ++i) machine.box[machine.remainders[i]] = open[i];
+  ClosedBox closed = closedBox(machine, std::move(machine.box), open);
+  machine.box = std::move(closed.box);
+  machine.vibrations = std::move(closed.vibrations);
   for (const int slot : machine.remainders) machine.motion.nominal[slot] = midpoint(machine.box[slot]);
 }
 

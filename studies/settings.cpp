@@ -258,6 +258,11 @@ void describeMechanism(Settings& s, bool hasRobot, RobotChoices& robot) {
          "[x, y, z], of the frame `inertial`, m/s^2: numbers, or expressions of time and parameters"},
         vector);
   s.own({"parameters", "numbers with names, which others may follow from"}, R"({"type": "object"})");
+  s.own({"loops",
+         "how loops are held in motion: `dependent`, by coordinates that follow from others; `multipliers`, by forces, "
+         "so that dead points of these coordinates are passed",
+         "dependent"},
+        R"({"enum": ["dependent", "multipliers"]})");
   s.own({"element"}, "elements");
   s.own({"urdf", "a robot's description (URDF), from the study's folder"}, text);
   if (!hasRobot) return;

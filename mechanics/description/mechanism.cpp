@@ -339,8 +339,23 @@ std::vector<std::string> Mechanism::coordinatesBetween(const std::string& from, 
 }
 
 bool Mechanism::isFreeParameter(const std::string& quantity) const {
-  const bool isPosition = positions_.find(quantity) != nullptr;
-  return (!isPosition && !isSpeed(quantity) && ownStates_.find(quantity) == nullptr) || (isPosition && isClosed());
+  if (positions_.find(quantity) != nullptr) return isClosed();
+  if (isSpeed(quantity)) return areLoopsHeld();
+  return ownStates_.find(quantity) == nullptr;
+}
+
+void Mechanism::holdLoops() {
+  for (const std::string& name : dependents_) {
+    const JointCoordinate& coordinate = *coordinates_.find(name);
+    if (!isSpeed(coordinate.rate))
+      speeds_.add({coordinate.rate, std::string(gamut::unitOf(coordinate.kind)) + "/s", 0.0});
+  }
+}
+
+std::vector<std::string> Mechanism::dependentRates() const {
+  std::vector<std::string> names;
+  for (const std::string& name : dependents_) names.push_back(coordinates_.find(name)->rate);
+  return names;
 }
 
 /// Visits an element that is being added.
@@ -820,7 +835,7 @@ std::vector<std::string> Mechanism::outputQuantities() const {
   for (const JointCoordinate& coordinate : coordinates_)
     if (coordinate.isDriven)
       names.insert(names.end(), {coordinate.name, coordinate.rate});
-    else if (coordinate.isDependent)
+    else if (coordinate.isDependent && !isSpeed(coordinate.rate))
       names.push_back(coordinate.rate);
   for (const Measured& measured : measured_) names.push_back(measured.name);
   const bool hasMass = !massFrames_.empty();

@@ -133,7 +133,7 @@ class Mechanism {
     std::string element, name, rate;
     Coordinate kind;
     bool isDriven = false;     ///< it is no state
-    bool isDependent = false;  ///< its rate is no state: it closes a loop
+    bool isDependent = false;  ///< it closes a loop: its rate is no state unless loops are held by multipliers
   };
   const Named<JointCoordinate>& coordinates() const { return coordinates_; }
   /// The coordinate of this name, or with a rate of this name; null if there is none.
@@ -148,6 +148,11 @@ class Mechanism {
   /// The coordinates that close loops, in the order of the rows that they close.
   const std::vector<std::string>& dependents() const { return dependents_; }
   bool isClosed() const { return !dependents_.empty(); }
+  /// Has loops held by multipliers, once nothing more is added: all speeds are states then, those of dependent
+  /// coordinates last, which follow from the others at the start alone. So the motion passes their dead points.
+  void holdLoops();
+  bool areLoopsHeld() const { return isClosed() && isSpeed(dependentRates().front()); }
+  std::vector<std::string> dependentRates() const;
   /// What closes a loop, and by which coordinates.
   struct Closed {
     std::string element;
@@ -165,7 +170,8 @@ class Mechanism {
     return nearby_.freeParameters == freeParameters ? nearby_.offsets.get() : nullptr;
   }
   /// Of these quantities, those that motion is recorded with as free parameters: what is no initial value, and, of what
-  /// closes on itself, initial positions, which those of dependent coordinates follow from.
+  /// closes on itself, what initial values of dependent coordinates follow from: initial positions, and, of loops that
+  /// are held, speeds.
   bool isFreeParameter(const std::string& quantity) const;
 
   /// The name of a speed's acceleration: hinge.rate, hinge.acceleration; sleeve.angle_rate, sleeve.angle_acceleration;

@@ -10,7 +10,9 @@
 // Of a machine that closes on itself some speeds depend on the others: with the constraints' rows g(q) = 0 and their
 // Jacobian J = (J_i, J_d), u_d = −J_d⁻¹ (J_i u_i + g_t). Positions are states all of them, and those of dependent
 // speeds are pulled to where the loop is closed, q̇_d = u_d − α J_d⁻¹ g, so that g decays as e^(−α t): on the loop the
-// pull is exactly zero.
+// pull is exactly zero. Where det J_d vanishes, at a dead point, nothing of this has a value. Loops that are held by
+// multipliers have no such points while J has full rank: all speeds are states, u_d follows at the start alone, and
+// g̈ = −2 α ġ − α² g, which is exactly zero on the loop too.
 #pragma once
 
 #include <functional>
@@ -46,8 +48,12 @@ class System {
     if (base.origin) throw std::invalid_argument("the inertial frame " + base.name + " must not be moved");
   }
 
-  /// The last of the speeds, as many as the constraints have rows, depend on the others.
-  void depend(std::size_t dependents) { dependents_ = dependents; }
+  /// The last of the speeds, as many as the constraints have rows, depend on the others; `areHeld`: at the start alone,
+  /// from where multipliers hold the loops.
+  void depend(std::size_t dependents, bool areHeld) {
+    dependents_ = dependents;
+    areHeld_ = areHeld;
+  }
   std::size_t dependents() const { return dependents_; }
   /// At the present positions and independent rates: sets the rates of dependent speeds.
   void close();
@@ -58,6 +64,10 @@ class System {
   }
   LinearSystem<S> dependentRows();
   std::vector<S> opening();
+  /// ġ at the present positions and rates.
+  std::vector<S> openingRates() const {
+    return ofConstraints([](const Constraint<S>& constraint) { return constraint.rates(); });
+  }
   /// α [1/s].
   static constexpr double pull = 20;
 
@@ -193,6 +203,7 @@ class System {
   Vector3<S> gravity_;
   std::function<Vector3<S>()> shaking_;
   std::size_t dependents_ = 0;
+  bool areHeld_ = false;
 };
 
 GAMUT_COMPILED_ELSEWHERE(System)

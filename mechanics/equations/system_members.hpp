@@ -64,7 +64,7 @@ std::vector<S> System<S>::accelerations(Formulation formulation) {
   doMotion();
   if (speeds_.empty()) return {};
   const bool isArticulated = formulation == Formulation::articulated;
-  const bool isFree = formulation != Formulation::bordered && dependents_ > 0 &&
+  const bool isFree = formulation != Formulation::bordered && dependents_ > 0 && !areHeld_ &&
                       (isArticulated || speeds_.size() - dependents_ <= mostEliminated);
   const auto found = [&] {
     if (isConstrained()) return isFree ? projected() : constrained();
@@ -291,7 +291,7 @@ void System<S>::close() {
   for (Speed<S>& speed : dependent) speed.rate = S(0.0);
   setAccelerations(zeros());
   doMotion();
-  std::vector<S> rates = ofConstraints([](Constraint<S>& constraint) { return constraint.rates(); });
+  std::vector<S> rates = openingRates();
   for (S& rate : rates) rate = -rate;
   const LinearSystem<S> rows = dependentRows();
   rows.solve(rates);
@@ -405,10 +405,10 @@ template <class S>
 std::vector<S> System<S>::constrained() {
   for (Constraint<S>* constraint : chain_.constraints()) constraint->setMultipliers({});
   std::vector<S> right = residual();
-  const std::vector<S> atRest = ofConstraints([](Constraint<S>& constraint) {
+  const std::vector<S> atRest = ofConstraints([this](Constraint<S>& constraint) {
     std::vector<S> rows = constraint.accelerations(MotionLevel::all);
     const std::vector<S> rates = constraint.rates(), residuals = constraint.residuals();
-    const S& sigma = constraint.stabilisation();
+    const S sigma = areHeld_ ? S(pull) : constraint.stabilisation();
     for (std::size_t i = 0; i < rows.size(); ++i)
       rows[i] = -rows[i] - S(2.0) * sigma * rates[i] - square(sigma) * residuals[i];
     return rows;

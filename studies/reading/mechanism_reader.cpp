@@ -52,11 +52,19 @@ class MechanismReader {
       for (std::size_t i = 0; i < elements.size(); ++i)
         guarded(elements[i], [&] { mechanism_.checkSignals(mechanism_.elements()[ofRobot + i].name()); });
     }
+    if (const toml::node* loops = section_.find("loops")) readLoops(*loops);
     guarded(robot != nullptr ? *robot : element != nullptr ? *element : section_.table(), [&] { mechanism_.check(); });
     return {std::move(mechanism_), std::move(places_), std::move(files_), std::move(notes_)};
   }
 
  private:
+  void readLoops(const toml::node& node) {
+    const std::string word = source_.asChoice(node, "mechanism.loops", {"dependent", "multipliers"});
+    if (!mechanism_.isClosed())
+      source_.fail(node, "mechanism.loops is given, but nothing closes a loop", "no such key");
+    if (word == "multipliers") mechanism_.holdLoops();
+  }
+
   std::function<void(Settings&)> described(bool hasRobot) {
     return [this, hasRobot](Settings& settings) { describeMechanism(settings, hasRobot, choices_); };
   }

@@ -260,6 +260,11 @@ class StudyReader {
     if (study_.moves() && m.stateNames().empty() && m.coordinates().empty())
       source_.fail(mechanism, "the mechanism has no joint and no state, so that nothing can move",
                    "a joint or a state in [[mechanism.element]], or analysis = \"kinematics\", which needs none");
+    if (m.areLoopsHeld() && study_.analysis != Study::Analysis::dynamics)
+      source_.fail(
+          mechanism,
+          fmt::format("mechanism.loops has no meaning in {}, where nothing moves by itself", study_.analysisName()),
+          "no such key, or analysis = \"dynamics\"");
   }
 
   /// Throws if some joint moves by itself; what closes a loop moves as the others do.
