@@ -45,33 +45,48 @@ Eigen::MatrixXd inertiaAlongLoops(System<double>& system) {
   return felt;
 }
 
-LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
-  constexpr double nothing = 1e-7;  // of a row's greatest entry
-  constexpr double least = 1e-6;    // of the greatest entry of all: of a row that may be taken for one of its own
-  Eigen::MatrixXd jacobian = jacobianOfLoops(system);
-  const Eigen::Index n = jacobian.cols(), m = jacobian.rows();
-  if (!jacobian.allFinite()) return {0.0, {}};
+namespace {
+
+/// J of the columns of coordinates, in units in which the greatest entry of each row is 1, and angles and displacements
+/// move rows alike; empty where it is no numbers, or none but zeros.
+struct ScaledRows {
+  Eigen::MatrixXd jacobian;
   std::vector<const Mechanism::JointCoordinate*> coordinates;  // of speeds; null of those without
+};
+
+ScaledRows scaledRows(const Mechanism& mechanism, System<double>& system) {
+  constexpr double least = 1e-6;  // of the greatest entry of all: of a row that may be taken for one of its own
+  ScaledRows rows{jacobianOfLoops(system), {}};
+  Eigen::MatrixXd& jacobian = rows.jacobian;
+  const Eigen::Index n = jacobian.cols(), m = jacobian.rows();
+  const double all = jacobian.allFinite() && m > 0 ? jacobian.cwiseAbs().maxCoeff() : 0.0;
+  if (!(all > 0)) return {};
   const std::vector<std::string> states = mechanism.stateNames();
   for (Eigen::Index j = 0; j < n - m; ++j)
-    coordinates.push_back(mechanism.coordinateWith(states[mechanism.positions() + static_cast<std::size_t>(j)]));
-  for (const std::string& name : mechanism.dependents()) coordinates.push_back(mechanism.coordinateWith(name));
-
-  const double all = jacobian.cwiseAbs().maxCoeff();
-  if (!(all > 0)) return {0.0, {}};
+    rows.coordinates.push_back(mechanism.coordinateWith(states[mechanism.positions() + static_cast<std::size_t>(j)]));
+  for (const std::string& name : mechanism.dependents()) rows.coordinates.push_back(mechanism.coordinateWith(name));
   for (Eigen::Index i = 0; i < m; ++i) {
     const double own = jacobian.row(i).cwiseAbs().maxCoeff();
     jacobian.row(i) /= own > least * all ? own : all;
   }
   double ofAngles = 0, ofDisplacements = 0;
   const auto unitOf = [&](Eigen::Index j) -> double& {
-    const Mechanism::JointCoordinate* of = coordinates[static_cast<std::size_t>(j)];
+    const Mechanism::JointCoordinate* of = rows.coordinates[static_cast<std::size_t>(j)];
     return of != nullptr && of->kind != Coordinate::angle ? ofDisplacements : ofAngles;
   };
   for (Eigen::Index j = 0; j < n; ++j) unitOf(j) = std::max(unitOf(j), jacobian.col(j).norm());
   for (Eigen::Index j = 0; j < n; ++j)
     if (unitOf(j) > 0) jacobian.col(j) /= unitOf(j);
+  return rows;
+}
 
+}  // namespace
+
+LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
+  constexpr double nothing = 1e-7;  // of a row's greatest entry
+  const auto [jacobian, coordinates] = scaledRows(mechanism, system);
+  if (coordinates.empty()) return {0.0, {}, 0.0, {}};
+  const Eigen::Index n = jacobian.cols(), m = jacobian.rows();
   Eigen::MatrixXd rest = jacobian, best(m, m);
   std::vector<char> isTaken(static_cast<std::size_t>(n), 0);
   for (Eigen::Index k = 0; k < m; ++k) {
@@ -81,15 +96,21 @@ LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
       if (of == nullptr || mechanism.isStruck(of->name) || isTaken[static_cast<std::size_t>(j)] != 0) continue;
       if (pivot < 0 || rest.col(j).norm() > rest.col(pivot).norm()) pivot = j;
     }
-    if (pivot < 0 || !(rest.col(pivot).norm() > nothing)) return {0.0, {}};
+    if (pivot < 0 || !(rest.col(pivot).norm() > nothing)) return {0.0, {}, 0.0, {}};
     isTaken[static_cast<std::size_t>(pivot)] = 1;
     best.col(k) = jacobian.col(pivot);
     const Eigen::VectorXd direction = rest.col(pivot).normalized();
     rest -= direction * (direction.transpose() * rest);
   }
-  LoopGrip grip{leastSingularValue(jacobian.rightCols(m)) / leastSingularValue(best), {}};
+  LoopGrip grip{leastSingularValue(jacobian.rightCols(m)) / leastSingularValue(best), {}, 0.0, {}};
   for (std::size_t j = 0; j < isTaken.size(); ++j)
     if (isTaken[j] != 0) grip.best.push_back(coordinates[j]->name);
+  grip.determinant = jacobian.rightCols(m).partialPivLu().determinant();
+  constexpr double some = 0.1;  // of the most that one moves
+  const Eigen::JacobiSVD<Eigen::MatrixXd> held(jacobian.rightCols(m), Eigen::ComputeFullV);
+  const Eigen::VectorXd loose = held.matrixV().col(m - 1).cwiseAbs();
+  for (Eigen::Index i = 0; i < m; ++i)
+    if (loose[i] > some * loose.maxCoeff()) grip.loose.push_back(mechanism.dependents()[static_cast<std::size_t>(i)]);
   return grip;
 }
 

@@ -20,8 +20,10 @@ Eigen::MatrixXd inertiaAlongLoops(System<double>& system);
 
 /// How firmly the dependent coordinates hold the loops closed at the present positions.
 struct LoopGrip {
-  double share;                   ///< of the firmness that the best choice has: 0 at a dead point
-  std::vector<std::string> best;  ///< the coordinates of that choice; empty where no choice closes all rows
+  double share;                    ///< of the firmness that the best choice has: 0 at a dead point
+  std::vector<std::string> best;   ///< the coordinates of that choice; empty where no choice closes all rows
+  double determinant;              ///< of J_d, likewise scaled
+  std::vector<std::string> loose;  ///< dependent coordinates that move most where they hold least
 };
 
 /// By the least singular value of J_d, in units in which the greatest entry of each row is 1, and angles and

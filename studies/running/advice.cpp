@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "studies/running/dead_point.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
 #include "studies/told.hpp"
@@ -141,6 +142,19 @@ class Trials {
 
 }  // namespace
 
+namespace {
+
+/// One that the enclosure came near to before it ended.
+std::optional<DeadPoint> deadPointAhead(const Run& run, const Enclosure& enclosure) {
+  constexpr double near = 0.3, about = 1.01;  // of its time
+  if (enclosure.cause.isStop()) return std::nullopt;
+  std::optional<DeadPoint> dead = deadPointOf(run.study);
+  if (dead && (enclosure.reached < near * dead->time || enclosure.reached > about * dead->time)) dead.reset();
+  return dead;
+}
+
+}  // namespace
+
 void seekAdvice(Run& run, const OutputScales& scales, Enclosure& enclosure, Results& results) {
   const bool isShort = !enclosure.why.empty() && enclosure.reached < run.study.horizon;
   if (!run.isEnclosed() || !run.moves() || !isShort) return;
@@ -152,11 +166,17 @@ void seekAdvice(Run& run, const OutputScales& scales, Enclosure& enclosure, Resu
     constexpr double part = 0.5;  // of a limit's rest, in which other answers are to come
     const double rest = part * std::max(0.0, run.limits.time - run.watch.spent()) * Work::perSecond;
     const double work = std::min(run.study.shares.advice * run.basis(), rest);
-    bool isTried = false;
-    const std::string found = Trials(run, enclosureOptions(run, scales), enclosure.nonlinear, work).find(isTried);
-    // A limit that ended it is named anyhow, unless more of it did not do.
-    const bool isGuess = isTried || enclosure.cause.kind == FlowCause::Kind::remainder;
-    if (!found.empty() || isGuess) enclosure.advice = found;
+    if (const std::optional<DeadPoint> dead = deadPointAhead(run, enclosure)) {
+      enclosure.advice = dead->advice();
+      for (std::string* why : {&enclosure.why, &results.interval.why, &results.fuzzy.why})
+        if (!why->empty()) *why += "; " + dead->sentence();
+    } else {
+      bool isTried = false;
+      const std::string found = Trials(run, enclosureOptions(run, scales), enclosure.nonlinear, work).find(isTried);
+      // A limit that ended it is named anyhow, unless more of it did not do.
+      const bool isGuess = isTried || enclosure.cause.kind == FlowCause::Kind::remainder;
+      if (!found.empty() || isGuess) enclosure.advice = found;
+    }
   }
   results.interval.advice = run.study.asksFor<IntervalResult>() ? enclosure.advice : "";
   addCost(results, "advice", cpu);
