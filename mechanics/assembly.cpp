@@ -75,6 +75,14 @@ bool dependOn(const std::vector<Recorded>& values, Is is) {
 template <class S>
 Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                       std::span<const S> values)
+    : Assembly(mechanism, freeParameters, values, true) {}
+
+template <class S>
+Assembly<S>::Assembly(const Mechanism& mechanism, Open /*open*/) : Assembly(mechanism, {}, {}, false) {}
+
+template <class S>
+Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                      std::span<const S> values, bool closesLoops)
     : areLoopsHeld_(mechanism.areLoopsHeld()) {
   mechanism.check();
   takeNumbers(mechanism, freeParameters, values);
@@ -132,7 +140,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
     initialState_.push_back(parts_.number(initial));
     origin_.push_back(isDifference[origin_.size()] ? initialState_.back() : S(0.0));
   }
-  closeLoops(mechanism, freeParameters, values);
+  if (closesLoops) closeLoops(mechanism, freeParameters, values);
   // What is recorded is the motion from any state; at the initial one it may be singular.
   if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
 }

@@ -31,6 +31,9 @@ class Assembly {
   /// (Mechanism::check), for a name that is no parameter, and for a wrong number of values.
   explicit Assembly(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                     std::span<const S> values = {});
+  /// The same of nominal values with loops open: dependent coordinates start where their closed position is looked for.
+  struct Open {};
+  Assembly(const Mechanism& mechanism, Open open);
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
@@ -91,6 +94,8 @@ class Assembly {
   template <class Other>
   friend class Assembly;
 
+  Assembly(const Mechanism& mechanism, const std::vector<std::string>& freeParameters, std::span<const S> values,
+           bool closesLoops);
   /// Of a dependent coordinate of loops that are held, its rate among the states.
   std::size_t rateOfDependent(std::size_t i) const {
     return states_.size() - ownRates_.size() - dependents_.size() + i;

@@ -6,6 +6,7 @@
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/description/refusal.hpp"
+#include "mechanics/equations/loop_rows.hpp"
 #include "scalars/program/linear_form.hpp"
 #include "scalars/program/sides.hpp"
 #include "scalars/recorded.hpp"
@@ -71,6 +72,31 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
     });
   } catch (const std::domain_error& error) {
     throw std::invalid_argument(std::string("the motion of the mechanism is not determined: ") + error.what());
+  }
+}
+
+DependentsOf firmerDependents(const Mechanism& mechanism, const std::set<std::string>& given) {
+  DependentsOf present;
+  for (const Mechanism::Closed& loop : mechanism.loops())
+    if (loop.isChosen) present.emplace(loop.element, loop.by);
+  if (present.empty()) return {};
+  DependentsOf firm;
+  try {
+    Assembly<double> closed(mechanism);
+    firm = firmDependents(mechanism, closed.system(), given);
+  } catch (const UnfitPart&) {
+    Assembly<double> open(mechanism, Assembly<double>::Open());
+    firm = firmDependents(mechanism, open.system(), given);
+  }
+  return firm == present ? DependentsOf() : firm;
+}
+
+bool startsClosed(const Mechanism& mechanism) {
+  try {
+    const Assembly<double> closed(mechanism);
+    return true;
+  } catch (const UnfitPart&) {
+    return false;
   }
 }
 

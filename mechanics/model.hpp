@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,13 @@ class Assembly;
 /// and if a joint moves no inertia.
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                      Formulation formulation = Formulation::sparse);
+
+/// Of loops that name no dependent coordinates, by the element that closes each, such as hold them firmly where the
+/// nominal machine starts (firmDependents, equations/loop_rows.hpp). Empty where these are those that the mechanism
+/// has, or nothing can be said.
+DependentsOf firmerDependents(const Mechanism& mechanism, const std::set<std::string>& given);
+/// Whether the nominal machine is found closed from where its closed position is looked for.
+bool startsClosed(const Mechanism& mechanism);
 
 /// Newton's map of the loops at the start (Assembly::closingMap), of n differences as states, one a dependent
 /// coordinate, and of the named parameters.

@@ -137,7 +137,7 @@ class Fields {
   }
   /// Coordinates that close a loop between two frames, so many: they follow from the others, and their initial
   /// positions are where the closed position is looked for. Without names
-  /// they are those of the loop that stand last.
+  /// they are those of the loop that stand last, of those without an initial rate where these are enough.
   virtual void dependentCoordinates(const Word& /*word*/, std::vector<std::string>& /*names*/, const Loop& /*loop*/) {}
   /// An expression of time alone and parameters.
   virtual void timeFunction(const Word& word, Expression& number) = 0;

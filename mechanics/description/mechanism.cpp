@@ -313,7 +313,8 @@ void Mechanism::depend(const std::string& coordinate, const std::string& by) {
   dependents_.push_back(coordinate);
 }
 
-std::vector<std::string> Mechanism::coordinatesBetween(const std::string& from, const std::string& to) const {
+std::vector<std::string> Mechanism::coordinatesBetween(const std::string& from, const std::string& to,
+                                                       std::size_t needed) const {
   const auto inwards = [this](std::string frame) {
     std::vector<std::string> frames;
     for (const Moved* moved = moved_.find(frame); moved != nullptr; moved = moved_.find(frame)) {
@@ -335,13 +336,20 @@ std::vector<std::string> Mechanism::coordinatesBetween(const std::string& from, 
     if (elements.contains(coordinate.element) && !coordinate.isDriven && !coordinate.isDependent &&
         !isStruck(coordinate.name))
       names.push_back(coordinate.name);
-  return names;
+  std::vector<std::string> still = names;
+  std::erase_if(still, [this](const std::string& name) { return !startsWithoutRate(*coordinates_.find(name)); });
+  return still.size() < needed ? names : still;
 }
 
 bool Mechanism::isFreeParameter(const std::string& quantity) const {
   if (positions_.find(quantity) != nullptr) return isClosed();
   if (isSpeed(quantity)) return areLoopsHeld();
   return ownStates_.find(quantity) == nullptr;
+}
+
+bool Mechanism::startsWithoutRate(const JointCoordinate& coordinate) const {
+  const NamedValue* rate = initials_.find(coordinate.rate);
+  return coordinate.isDependent || (rate != nullptr && isEqual(rate->nominal, Interval(0.0)));
 }
 
 void Mechanism::holdLoops() {
@@ -474,7 +482,7 @@ class Mechanism::Checker final : public Fields {
   }
   void dependentCoordinates(const Word& /*word*/, std::vector<std::string>& names, const Loop& loop) override {
     const bool isChosen = names.empty();
-    if (isChosen) names = m_.coordinatesBetween(loop.from, loop.to);
+    if (isChosen) names = m_.coordinatesBetween(loop.from, loop.to, loop.rows);
     const std::string needed = std::to_string(loop.rows) + (loop.rows == 1 ? " coordinate" : " coordinates");
     if (isChosen ? names.size() < loop.rows : names.size() != loop.rows)
       refuse("the loop " + inQuotes(element_) + " is closed by " + needed + ", but " +

@@ -42,6 +42,9 @@ class WrongNumber : public UnitError {
   std::string number_;
 };
 
+/// Coordinates by the element that closes a loop by them.
+using DependentsOf = std::map<std::string, std::vector<std::string>>;
+
 class Mechanism {
  public:
   /// The frame in which everything stands.
@@ -148,6 +151,8 @@ class Mechanism {
   /// The coordinates that close loops, in the order of the rows that they close.
   const std::vector<std::string>& dependents() const { return dependents_; }
   bool isClosed() const { return !dependents_.empty(); }
+  /// Whether its initial rate is 0, as that of one that depends on others has to be.
+  bool startsWithoutRate(const JointCoordinate& coordinate) const;
   /// Has loops held by multipliers, once nothing more is added: all speeds are states then, those of dependent
   /// coordinates last, which follow from the others at the start alone. So the motion passes their dead points.
   void holdLoops();
@@ -249,8 +254,9 @@ class Mechanism {
   void depend(const std::string& coordinate, const std::string& by);
   /// A driven or dependent one starts as what moves it says.
   void requireNoInitial(const std::string& number, const JointCoordinate& of, const std::string& by) const;
-  /// Coordinates of the joints between two frames that may depend on others, in the order of their description.
-  std::vector<std::string> coordinatesBetween(const std::string& from, const std::string& to) const;
+  /// Coordinates of the joints between two frames that may depend on others, in the order of their description; without
+  /// those that have an initial rate where so many are left that are `needed`.
+  std::vector<std::string> coordinatesBetween(const std::string& from, const std::string& to, std::size_t needed) const;
   /// What moves with a frame: itself, or one that it carries, also by coordinates that follow one of the element that
   /// moves it.
   std::map<std::string, bool> framesThatMoveMass() const;

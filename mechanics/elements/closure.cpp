@@ -35,7 +35,9 @@ void describeEnds(Fields& f, std::string& from, std::string& to, ExpressionVecto
 
 constexpr const char* dependentMeaning =
     "a list of the coordinates that follow from the others, such as `[\"coupler\", \"rocker\"]`: those of the "
-    "loop that stand last unless given. Their initial values are where the closed position is looked for";
+    "loop that stand last, without an initial rate, and hold it firmly unless given. Their initial values are where "
+    "the "
+    "closed position is looked for";
 
 }  // namespace
 

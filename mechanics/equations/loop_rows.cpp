@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <utility>
 
 namespace gamut {
 namespace {
@@ -112,6 +113,58 @@ LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
   for (Eigen::Index i = 0; i < m; ++i)
     if (loose[i] > some * loose.maxCoeff()) grip.loose.push_back(mechanism.dependents()[static_cast<std::size_t>(i)]);
   return grip;
+}
+
+/// By elimination of the rows, loop by loop: what is open of later loops is what dependent coordinates of earlier ones
+/// do not close.
+DependentsOf firmDependents(const Mechanism& mechanism, System<double>& system, const std::set<std::string>& given) {
+  constexpr double firm = 0.1, nothing = 1e-7;
+  auto [rows, coordinates] = scaledRows(mechanism, system);
+  std::map<std::string, std::size_t> order;  // as coordinates stand
+  for (const Mechanism::JointCoordinate& coordinate : mechanism.coordinates())
+    order.emplace(coordinate.name, order.size());
+  const auto mayFollow = [&](const Mechanism::JointCoordinate* of) {
+    return of != nullptr && !mechanism.isStruck(of->name) && !given.contains(of->name) && !given.contains(of->rate) &&
+           mechanism.startsWithoutRate(*of);
+  };
+  std::vector<char> isTaken(coordinates.size(), 0);
+  DependentsOf choice;
+  Eigen::Index first = 0;
+  for (const Mechanism::Closed& loop : mechanism.loops()) {
+    const auto count = static_cast<Eigen::Index>(loop.by.size());
+    std::vector<std::string> chosen;
+    for (Eigen::Index k = 0; k < count && !coordinates.empty(); ++k) {
+      auto open = rows.middleRows(first, count);
+      std::vector<std::size_t> candidates;
+      for (std::size_t j = 0; j < coordinates.size(); ++j)
+        if (isTaken[j] == 0 &&
+            (loop.isChosen
+                 ? mayFollow(coordinates[j])
+                 : std::ranges::find(loop.by, coordinates[j] == nullptr ? std::string() : coordinates[j]->name) !=
+                       loop.by.end()))
+          candidates.push_back(j);
+      const auto firmness = [&](std::size_t j) { return open.col(static_cast<Eigen::Index>(j)).norm(); };
+      double most = 0;
+      for (const std::size_t j : candidates) most = std::max(most, firmness(j));
+      std::erase_if(candidates, [&](std::size_t j) { return !(firmness(j) >= firm * most && firmness(j) > nothing); });
+      if (candidates.empty()) return {};
+      const std::size_t pivot =
+          *std::ranges::max_element(candidates, {}, [&](std::size_t j) { return order.at(coordinates[j]->name); });
+      isTaken[pivot] = 1;
+      chosen.push_back(coordinates[pivot]->name);
+      // Rotates the loop's rows so that the pivot moves one of them alone, and takes it out of those of later loops.
+      const auto column = static_cast<Eigen::Index>(pivot);
+      const Eigen::VectorXd direction = open.col(column).normalized();
+      const Eigen::RowVectorXd row = direction.transpose() * open;
+      open -= direction * row;
+      for (Eigen::Index i = first + count; i < rows.rows(); ++i) rows.row(i) -= row * (rows(i, column) / row[column]);
+    }
+    if (static_cast<Eigen::Index>(chosen.size()) != count) return {};
+    std::ranges::sort(chosen, {}, [&](const std::string& name) { return order.at(name); });
+    if (loop.isChosen) choice.emplace(loop.element, std::move(chosen));
+    first += count;
+  }
+  return choice;
 }
 
 }  // namespace gamut

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,10 @@ struct LoopGrip {
 /// displacements move rows alike. The best choice is that of a pivoted orthogonalisation of the columns of J that
 /// belong to coordinates.
 LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system);
+
+/// Of loops that name no dependent coordinates: those that stand last, but for such as move what rows still leave open
+/// by less than a tenth of what the firmest does at the present positions (elimination with threshold pivoting).
+/// Without those that have an initial rate, strike a rigid end or are `given`. Empty where that closes not all rows.
+DependentsOf firmDependents(const Mechanism& mechanism, System<double>& system, const std::set<std::string>& given);
 
 }  // namespace gamut

@@ -10,10 +10,13 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/orientation.hpp"
 #include "mechanics/description/words.hpp"
+#include "mechanics/model.hpp"
 #include "studies/printable.hpp"
 #include "studies/reading/settings_reader.hpp"
 #include "studies/reading/table_reader.hpp"
@@ -28,11 +31,14 @@ bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)
 
 class MechanismReader {
  public:
+  /// `dependents`: of loops that name none, by the element that closes each; others are closed by those that stand
+  /// last.
   MechanismReader(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
-                  const std::optional<FilesAtHand>& files)
+                  const std::optional<FilesAtHand>& files, DependentsOf dependents = {})
       : source_(source),
         types_(types),
         atHand_(files),
+        dependents_(std::move(dependents)),
         section_(source, table, "mechanism", keysOf(described(table.contains("urdf")))) {}
 
   ReadMechanism read() {
@@ -453,6 +459,8 @@ class MechanismReader {
     }
     void dependentCoordinates(const Word& word, std::vector<std::string>& names, const Loop& /*loop*/) override {
       const toml::node* node = section_.find(word.key);
+      const auto chosen = reader_.dependents_.find(section_.text("name"));
+      if (node == nullptr && chosen != reader_.dependents_.end()) names = chosen->second;
       if (node == nullptr) return;
       const std::string what = section_.nameOf(word.key);
       const TomlSource& source = section_.source();
@@ -650,6 +658,7 @@ class MechanismReader {
   const TomlSource& source_;
   const std::vector<Described>& types_;
   const std::optional<FilesAtHand>& atHand_;
+  const DependentsOf dependents_;
   RobotChoices choices_;
   TomlSection section_;
   Mechanism mechanism_;
@@ -658,6 +667,28 @@ class MechanismReader {
   std::map<std::string, const toml::node*> statedWithUnit_;  // parameters
   std::map<std::string, const toml::node*> places_;
 };
+
+}  // namespace
+
+namespace {
+
+/// Quantities that are stated to be uncertain, whatever else is wrong with them.
+std::set<std::string> uncertainIn(const TomlSource& source) {
+  std::set<std::string> names;
+  const auto add = [&](const toml::node& node) {
+    if (const auto name = node.value<std::string>()) names.insert(*name);
+  };
+  if (const toml::array* tables = source.root()["uncertain"].as_array())
+    for (const toml::node& each : *tables) {
+      const toml::table* table = each.as_table();
+      const toml::node* quantity = table == nullptr ? nullptr : table->get("quantity");
+      if (quantity == nullptr) continue;
+      add(*quantity);
+      if (const toml::array* several = quantity->as_array())
+        for (const toml::node& one : *several) add(one);
+    }
+  return names;
+}
 
 }  // namespace
 
@@ -675,7 +706,19 @@ TomlSource::Names namesStatedIn(const TomlSource& source) {
 
 ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
                             const std::optional<FilesAtHand>& files) {
-  return MechanismReader(source, table, types, files).read();
+  ReadMechanism read = MechanismReader(source, table, types, files).read();
+  if (!read.mechanism.isClosed()) return read;
+  const DependentsOf firmer = firmerDependents(read.mechanism, uncertainIn(source));
+  if (firmer.empty()) return read;
+  ReadMechanism other = MechanismReader(source, table, types, files, firmer).read();
+  if (!startsClosed(other.mechanism)) return read;
+  for (const Mechanism::Closed& loop : read.mechanism.loops())
+    if (const auto at = firmer.find(loop.element); at != firmer.end() && at->second != loop.by)
+      other.notes.push_back(source.note(
+          *other.places.at(loop.element),
+          fmt::format("the loop '{}' is closed by {}, as {}, which stand last, hold it weakly where it starts",
+                      loop.element, fmt::join(at->second, ", "), fmt::join(loop.by, ", "))));
+  return other;
 }
 
 }  // namespace gamut

@@ -248,6 +248,25 @@ TEST(ClosedLoopStudy, SaysThatItStartsAtADeadPoint) {
   EXPECT_THAT(refusalOf(dead), HasSubstr("\"A.angle\""));
 }
 
+/// The same at rest: others than those that stand last follow, unless they are uncertain.
+TEST(ClosedLoopStudy, ChoosesCoordinatesThatHoldFirmlyWhereItStarts) {
+  std::string dead = replaced(fourBarText("1", "", "", "angle = -2.2"), "b = \"0.8 m\", c = \"0.6 m\", d = \"0.9 m\"",
+                              "b = \"0.3 m\", c = \"0.2 m\", d = \"0.4 m\"");
+  dead = replaced(replaced(dead, "angle = 1, rate = 4", "angle = \"90 deg\""), "angle = 1.6", "angle = 2.5");
+  const Study study = readStudyText(dead, "s.toml");
+  EXPECT_EQ(study.mechanism.dependents(), (std::vector<std::string>{"A.angle", "D.angle"}));
+  ASSERT_EQ(study.notes.size(), 1U);
+  EXPECT_THAT(study.notes[0],
+              HasSubstr("note: the loop 'C' is closed by A.angle, D.angle, as B.angle, D.angle, which"));
+  EXPECT_EQ(readStudyText(fourBarText("1", ""), "s.toml").mechanism.dependents(),
+            (std::vector<std::string>{"B.angle", "D.angle"}));
+  const std::string moving = replaced(replaced(fourBarText("1", ""), "angle = 1, rate = 4", "angle = 1"), "angle = 1.6",
+                                      "angle = 1.6, rate = 0.5");
+  EXPECT_EQ(readStudyText(moving, "s.toml").mechanism.dependents(), (std::vector<std::string>{"A.angle", "B.angle"}));
+  EXPECT_THAT(refusalOf(replaced(dead, "[[output]]", uncertain({"A.angle"}, "± 1 %") + "[[output]]")),
+              HasSubstr("the loop 'C' starts at a dead point of B.angle, D.angle"));
+}
+
 /// All bars lie in line, where the linkage may go on in two ways.
 TEST(ClosedLoopStudy, SaysThatItsRowsDependOnEachOther) {
   std::string flat = replaced(fourBarText("1", "", "", "angle = -3.1"), "d = \"0.9 m\"", "d = \"1.1 m\"");
