@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <new>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -146,16 +147,31 @@ void refuseOpenLoops(const Study& study, const std::vector<std::string>& freePar
          "narrower intervals, or a position that is farther from where the loop cannot be closed");
 }
 
+namespace {
+
+/// Those that outputs of a program follow from.
+std::set<int> parametersOf(const Program& program) {
+  std::vector<char> isNeeded(program.nodes().size(), 0);
+  for (const int node : program.outputNodes()) isNeeded[static_cast<std::size_t>(node)] = 1;
+  std::set<int> parameters;
+  for (std::size_t i = program.nodes().size(); i-- > 0;) {
+    if (isNeeded[i] == 0) continue;
+    if (program.nodes()[i].op == Op::parameter) parameters.insert(program.nodes()[i].a);
+    detail::forEachOperand(program.table(), static_cast<int>(i),
+                           [&](int operand) { isNeeded[static_cast<std::size_t>(operand)] = 1; });
+  }
+  return parameters;
+}
+
+}  // namespace
+
 void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters) {
   if (std::ranges::none_of(study.uncertain, &UncertainQuantity::varies)) return;
-  const Program rows = recordLoops(study.mechanism, freeParameters);
+  const std::set<int> inRows = parametersOf(recordLoops(study.mechanism, freeParameters));
   for (const UncertainQuantity& uncertain : study.uncertain) {
     const auto name = std::ranges::find(freeParameters, uncertain.quantity);
-    if (!uncertain.varies || name == freeParameters.end()) continue;
-    const auto isIt = [&](const Node& node) {
-      return node.op == Op::parameter && node.a == name - freeParameters.begin();
-    };
-    if (std::ranges::any_of(rows.nodes(), isIt))
+    if (uncertain.varies && name != freeParameters.end() &&
+        inRows.contains(static_cast<int>(name - freeParameters.begin())))
       refuse(study.places.of(uncertain.quantity),
              fmt::format("'{}' varies in time, but where a loop is closed follows from it", uncertain.quantity),
              "a quantity that is constant, or one that no loop follows from, such as a mass or a force");

@@ -209,6 +209,22 @@ TEST(HeldLoop, TurnsACrankThroughItsDeadCentres) {
   EXPECT_GT(turns, 2);
 }
 
+/// What loads the loop may vary in time, as it closes whatever that is.
+TEST(HeldLoop, BearsAForceThatVaries) {
+  const std::string force =
+      "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"load\"\njoint = \"A\"\n"
+      "parameters = { moment = \"0.5 N m\" }\nforce = \"load.moment\"\n[[mechanism.element]]\ntype = \"closure\"";
+  const std::string varying = uncertain({"load.moment"}, "± 5 %") + "varies = \"freely\"\n";
+  for (const std::string& text :
+       {fourBarText("0.2", varying), held(byRocker("0.1", varying, "angle = 2.06, rate = 1"))}) {
+    const Study study = readStudyText(replaced(text, "[[mechanism.element]]\ntype = \"closure\"", force), "s.toml");
+    const Results results = run(study, {});
+    EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+    EXPECT_EQ(results.interval.reached, study.horizon);
+    EXPECT_GT(results.interval.at.upper(1, 1) - results.interval.at.lower(1, 1), 1e-3);
+  }
+}
+
 TEST(HeldLoop, IsRefusedWhereNothingMovesOrCloses) {
   const auto refusalOf = [](const std::string& text) {
     try {
