@@ -26,8 +26,12 @@ class Seen final : public Onlooker {
     FixedPoint centre;
     Expression mass;
   };
-  struct Spring {
+  struct Line {
     FixedPoint from, to;
+  };
+  struct Joint {
+    FixedPoint at;
+    int turns, slides;
   };
   struct JointAxis {
     std::string key, frame;
@@ -48,6 +52,10 @@ class Seen final : public Onlooker {
   }
   void carriesMass(const FixedPoint& centre, const Expression& mass) override { bodies.push_back({centre, mass}); }
   void drawsSpring(const FixedPoint& from, const FixedPoint& to) override { springs.push_back({from, to}); }
+  void drawsLink(const FixedPoint& from, const FixedPoint& to) override { links.push_back({from, to}); }
+  void drawsJoint(const FixedPoint& at, int itsTurns, int itsSlides) override {
+    joints.push_back({at, itsTurns, itsSlides});
+  }
   void jointAxis(const Word& word, Axis& axis, const std::string& frame) override {
     axes.push_back({word.key, frame, axis});
   }
@@ -71,7 +79,8 @@ class Seen final : public Onlooker {
 
   std::vector<Moved> moved;
   std::vector<Body> bodies;
-  std::vector<Spring> springs;
+  std::vector<Line> springs, links;
+  std::vector<Joint> joints;
   std::vector<JointAxis> axes;
   std::optional<Shape> shape;
   int turns = 0, slides = 0;
@@ -94,8 +103,7 @@ class Finder {
     for (const auto& [from, to] : seen.moved) {
       const bool isJoint = seen.turns + seen.slides > 0;
       if (!isJoint && std::ranges::count(ground_, from) > 0) ground_.push_back(to);
-      for (const auto& [key, frame, axis] : seen.axes)
-        skeleton.axes.push_back({name + "." + key, skeleton.parts.size(), frame, axis});
+      addAxes(name, seen);
       if (seen.shape) {
         addShape(element, *seen.shape);
         continue;
@@ -108,10 +116,22 @@ class Finder {
       const std::size_t first = pointOf(centre.frame), second = pointOf(name + ".centre", centre);
       skeleton.parts.push_back({name, element.type(), Skeleton::Kind::mass, first, second, 0, 0, mass});
     }
-    for (const auto& [from, to] : seen.springs) {
-      const std::size_t first = pointOf(name + ".from", from), second = pointOf(name + ".to", to);
-      skeleton.parts.push_back({name, element.type(), spring, first, second, 0, 0, 0.0});
+    for (const auto& [lines, kind] : {std::pair(&seen.springs, spring), std::pair(&seen.links, rigid)})
+      for (const auto& [from, to] : *lines) {
+        const std::size_t first = pointOf(name + ".from", from), second = pointOf(name + ".to", to);
+        skeleton.parts.push_back({name, element.type(), kind, first, second, 0, 0, 0.0});
+      }
+    for (const auto& [at, turns, slides] : seen.joints) {
+      if (turns < 3) addAxes(name, seen);
+      const std::size_t place = pointOf(name + ".at", at);
+      skeleton.parts.push_back({name, element.type(), joint, place, place, turns, slides, 0.0});
     }
+  }
+
+  /// Of the part that comes next.
+  void addAxes(const std::string& name, const Seen& seen) {
+    for (const auto& [key, frame, axis] : seen.axes)
+      skeleton.axes.push_back({name + "." + key, skeleton.parts.size(), frame, axis});
   }
 
   /// By lines between points of the shape's own frame: a segment, or the edges of a box or a polyhedron.

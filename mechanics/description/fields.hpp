@@ -88,6 +88,9 @@ class Fields {
   virtual void carriesMass(const FixedPoint& /*centre*/, const Expression& /*mass*/) {}
   /// It is seen as a spring between these ends. What moves a frame and what carries mass is seen as that.
   virtual void drawsSpring(const FixedPoint& /*from*/, const FixedPoint& /*to*/) {}
+  /// As rigid between these points, or as a joint at one of them, of so many freedoms, about or along its jointAxis.
+  virtual void drawsLink(const FixedPoint& /*from*/, const FixedPoint& /*to*/) {}
+  virtual void drawsJoint(const FixedPoint& /*at*/, int /*turns*/, int /*slides*/) {}
   /// One of the words.
   virtual void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) = 0;
   /// A direction fixed in the frames.

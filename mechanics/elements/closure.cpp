@@ -15,13 +15,14 @@ namespace {
 struct Held {
   const char* as;
   bool along, across, parallel;
+  int turns, slides;  // as it is seen
 
   std::size_t rows() const { return (along ? 1U : 0U) + (across ? 2U : 0U) + (parallel ? 2U : 0U); }
 };
 
-constexpr std::array held = {Held{"ball", true, true, false}, Held{"hinge", true, true, true},
-                             Held{"pin", false, true, false}, Held{"cylinder", false, true, true},
-                             Held{"plane", true, false, false}};
+constexpr std::array held = {Held{"ball", true, true, false, 3, 0}, Held{"hinge", true, true, true, 1, 0},
+                             Held{"pin", false, true, false, 1, 0}, Held{"cylinder", false, true, true, 1, 1},
+                             Held{"plane", true, false, false, 3, 2}};
 
 const Held& heldAs(const std::string& as) { return *std::ranges::find(held, as, &Held::as); }
 
@@ -31,6 +32,8 @@ void describeEnds(Fields& f, std::string& from, std::string& to, ExpressionVecto
   f.otherFrame({"to", "", "the other frame"}, to, from);
   f.vector({"from_point", "m", "a point in `from`"}, fromPoint);
   f.vector({"to_point", "m", "a point in `to`"}, toPoint);
+  f.drawsLink({from}, {from, fromPoint});
+  f.drawsLink({to}, {to, toPoint});
 }
 
 constexpr const char* dependentMeaning =
@@ -51,7 +54,8 @@ void Closure::describe(Fields& f) {
        "through that of `from`, as in planar loops a hinge is; `cylinder`: and the axes stay together; `plane`: it "
        "stays in the plane across the axis. `ball` unless given"},
       as, words);
-  f.axis({"axis", "", "in `from`; `\"z\"` unless given"}, axis);
+  f.jointAxis({"axis", "", "in `from`; `\"z\"` unless given"}, axis, from);
+  f.drawsJoint({to, toPoint}, heldAs(as).turns, heldAs(as).slides);
   f.axis({"to_axis", "", "of a `hinge` and a `cylinder`: the same axis in `to`; `\"z\"` unless given"}, toAxis);
   f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, heldAs(as).rows()});
   for (const char* component : components)
@@ -90,6 +94,8 @@ GAMUT_ASSEMBLE(Closure)
 void RodClosure::describe(Fields& f) {
   describeEnds(f, from, to, fromPoint, toPoint);
   f.number({"length", "m", "the distance of the points", true}, length);
+  f.drawsLink({from, fromPoint}, {to, toPoint});
+  for (const FixedPoint& end : {FixedPoint{from, fromPoint}, FixedPoint{to, toPoint}}) f.drawsJoint(end, 3, 0);
   f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, 1});
   f.measureSolved({"force", "N", "by which it pushes its ends apart"});
 }

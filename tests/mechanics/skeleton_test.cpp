@@ -116,6 +116,53 @@ TEST(Skeleton, SaysWhatEachPartIs) {
   EXPECT_EQ(skeleton.axes[3].frame, "U");
 }
 
+/// Two arms that a pin holds together at a point of one of them, and a rod from there to the ground.
+TEST(Skeleton, ShowsWhereLoopsClose) {
+  Mechanism m;
+  m.add(Revolute{"left", "inertial", "L", axisZ, 0.5});
+  m.add(Mass{"a", "L", 1.0, {1.0, 0.0, 0.0}});
+  m.add(Link{"ground", "inertial", "G", {1.0, 0.0, 0.0}});
+  m.add(Revolute{"right", "G", "R", axisZ, 2.0});
+  m.add(Prismatic{"slide", "R", "S", axisX, 0.7});
+  Closure pin;
+  pin.name = "pin";
+  pin.from = "S";
+  pin.to = "L";
+  pin.as = "pin";
+  pin.toPoint = {0.8, 0.0, 0.0};
+  m.add(pin);
+  RodClosure rod;
+  rod.name = "rod";
+  rod.from = "L";
+  rod.fromPoint = {0.8, 0.0, 0.0};
+  rod.to = "inertial";
+  rod.toPoint = {0.0, 1.0, 0.0};
+  rod.dependent = {"left"};
+  m.add(rod);
+  const Skeleton skeleton = skeletonOf(m);
+  const auto partsOf = [&](const std::string& name, Kind kind) {
+    std::vector<Skeleton::Part> parts;
+    for (const Skeleton::Part& part : skeleton.parts)
+      if (part.name == name && part.kind == kind) parts.push_back(part);
+    return parts;
+  };
+  EXPECT_THAT(namesOf(skeleton), ElementsAre("inertial", "a.centre", "G", "S", "pin.to", "rod.to"));
+  const auto arms = partsOf("pin", Kind::rigid), pins = partsOf("pin", Kind::joint), rods = partsOf("rod", Kind::rigid),
+             balls = partsOf("rod", Kind::joint);
+  ASSERT_EQ(arms.size(), 2U);
+  EXPECT_EQ(arms[0].from, arms[0].to);
+  EXPECT_EQ(arms[1].to, 4U);
+  ASSERT_EQ(pins.size(), 1U);
+  EXPECT_EQ(pins[0].from, 4U);
+  EXPECT_EQ(pins[0].turns, 1);
+  EXPECT_EQ(std::ranges::count(skeleton.axes, std::string("pin.axis"), &Skeleton::JointAxis::name), 1);
+  ASSERT_EQ(rods.size(), 3U);
+  EXPECT_EQ(rods[2].from, 4U);
+  EXPECT_EQ(rods[2].to, 5U);
+  ASSERT_EQ(balls.size(), 2U);
+  EXPECT_EQ(balls[1].from, 5U);
+}
+
 TEST(Skeleton, IsWhereTheAssemblyIs) {
   const Mechanism arm = spatialArm();
   const Skeleton skeleton = skeletonOf(arm);
