@@ -185,7 +185,7 @@ inline Program motionByMultipliers(const Mechanism& mechanism, const std::vector
                     rates[i < free ? names[n + i] : mechanism.coordinateWith(mechanism.dependents()[i - free])->rate] =
                         x[n + i];
                   }
-                  system.depend(0);
+                  system.depend(0, false);
                   const Vector found = system.accelerations(Formulation::bordered);
                   for (std::size_t i = 0; i < n; ++i) {
                     dx[i] = rates.at(mechanism.coordinateWith(names[i])->rate);

@@ -297,7 +297,7 @@ void System<S>::close() {
   rows.solve(rates);
   if (isByTangents) {
     const std::vector<std::vector<S>> along = tangents(rows);
-    lead(along, rates);
+    if (!areHeld_) lead(along, rates);  // else these laws hold at the start alone
     for (std::size_t j = 0; j < f; ++j) {
       speeds_[j].get().rate = independent[j];
       for (std::size_t i = 0; i < dependents_; ++i) rates[i] = rates[i] + along[j][f + i] * independent[j];

@@ -84,6 +84,29 @@ TEST(ClosedLoops, StartNearWhereTheyAreLookedFor) {
   EXPECT_GE(closed, 56);
 }
 
+/// Dry friction in coupler and rocker, of a motion that began where the rocker turned the other way.
+TEST(ClosedLoops, RubAlikeHoweverTheyAreHeld) {
+  const auto rubbing = [](double angle) {
+    Mechanism m = testing::fourBar(pinned(), -3, angle);
+    m.add(JointFriction{"onB", "B", 0.5});
+    m.add(JointFriction{"onD", "D", 0.7});
+    return m;
+  };
+  Mechanism held = rubbing(1);
+  held.holdLoops();
+  Assembly<double> byMultipliers(held);
+  const double before = byMultipliers.output("D.rate");
+  std::vector<double> x;
+  Assembly<double> byCrank(rubbing(4));
+  for (const std::string& name : held.stateNames()) x.push_back(byCrank.output(name));
+  ASSERT_LT(before * byCrank.output("D.rate"), 0);
+  byMultipliers.setState(x);
+  const std::vector<double> expected = byCrank.accelerations(), found = byMultipliers.accelerations();
+  ASSERT_EQ(found.size(), 3U);
+  for (const double acceleration : found)
+    EXPECT_NEAR(acceleration, expected[&acceleration - found.data()], 1e-9 * std::abs(acceleration));
+}
+
 /// Where the crank is driven nothing is left that moves by itself, and positions follow as states.
 TEST(ClosedLoops, FollowACrankThatIsDriven) {
   Mechanism m = testing::fourBar(pinned(), 0, 0);
