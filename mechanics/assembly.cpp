@@ -40,6 +40,8 @@ bool dependOn(const std::vector<Recorded>& values, Is is) {
   return false;
 }
 
+constexpr double leastSide = 1e-6;  // of a triangle that is known to be on it
+
 /// `at`: where they close after all, at a dead point of the coordinates by which they do.
 [[noreturn]] void refuseOpen(const Mechanism& mechanism, bool isFar, const std::optional<LoopGrip>& at) {
   std::string loops, by;
@@ -52,7 +54,8 @@ bool dependOn(const std::vector<Recorded>& values, Is is) {
     throw UnfitPart(mechanism.loops().front().element,
                     (isOne ? "the loop " : "the loops ") + loops + (isOne ? "' starts" : "' start") +
                         " where its rows depend on each other, so that nothing follows from the other coordinates",
-                    "a closure that holds less (`pin` in planar loops), or another initial position");
+                    "a closure that holds less (`pin` in planar loops), or another initial position: where all lies in "
+                    "one line, a loop may open in more ways than one");
   if (at) {
     std::string best;
     for (const std::string& name : at->best) best += (best.empty() ? "\"" : ", \"") + name + "\"";
@@ -122,6 +125,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   for (const std::string& name : mechanism.dependents()) {
     if (!areLoopsHeld_) speeds.push_back(*parts_.variables_.at(name));
     dependents_.push_back(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
+    dependentsTurn_.push_back(mechanism.coordinates().find(name)->kind == Coordinate::angle);
   }
   const auto& gravity = mechanism.gravity();
   system_ = std::make_unique<System<S>>(std::move(speeds), chain_, *parts_.frames_.at(Mechanism::inertialFrame),
@@ -168,6 +172,7 @@ std::vector<S> Assembly<S>::rowsOfMotion(std::span<const S> v, std::span<const S
     for (S& multiplier : multipliers) multiplier = v[at++];
     constraint->setMultipliers(std::move(multipliers));
   }
+  for (auto& [name, speed] : parts_.speeds_) speed->leader = nullptr;
   parts_.time_ = time;
   known_ = Known::solving;
   system_->doMotion();
@@ -335,8 +340,7 @@ void Assembly<S>::placeTriangles() {
         for (std::size_t i = 0; i < loop.rows && !loop.isPlaced; ++i)
           open.insert(static_cast<int>(dependents_[loop.first + i]));
       for (Loop& loop : loops_) {
-        constexpr double least = 1e-6;
-        if (loop.isPlaced || !loop.triangle || !(std::abs(loop.side) > least)) continue;
+        if (loop.isPlaced || !loop.triangle || !(std::abs(loop.side) > leastSide)) continue;
         const std::vector<S> given = loop.triangle->given();
         if (given.empty() ||
             dependOn(given, [&](const Node& node) { return node.op == Op::state && open.contains(node.a); }))
@@ -593,12 +597,28 @@ template <class S>
 std::vector<S> Assembly<S>::rates(Formulation formulation) {
   std::vector<S> result;
   if (!dependents_.empty() && !areLoopsHeld_) opening_ = opening();
+  if (formulation == Formulation::articulated) endWhereOpen();
   for (const Signal<S>& rate : positionRates_) result.push_back(rate());
   const std::vector<S> found = accelerations(formulation);
   const std::size_t following = areLoopsHeld_ ? 0 : dependents_.size();
   result.insert(result.end(), found.begin(), found.end() - static_cast<std::ptrdiff_t>(following));
   for (const Signal<S>& rate : ownRates_) result.push_back(rate());
   return result;
+}
+
+/// Where a dead point was stepped over, dependent coordinates have no rates, so that the motion of samples ends: where
+/// angles are off by more than they ever are, and where a triangle would be on its other side. The pull towards where
+/// loops are closed is what it was to the last bit, or up to the root of a triangle's height weaker.
+template <class S>
+void Assembly<S>::endWhereOpen() {
+  using std::sqrt;
+  constexpr double most = 0x1p-5;  // rad
+  for (std::size_t i = 0; i < opening_.size(); ++i)
+    if (dependentsTurn_[i]) opening_[i] = opening_[i] * S(sqrt(S(1.0) - square(S(1 / most) * opening_[i])));
+  if (opening_.empty()) return;
+  for (const Loop& loop : loops_)
+    if (loop.triangle && std::abs(loop.side) > leastSide && !loop.triangle->given().empty())
+      opening_[loop.first] = opening_[loop.first] * S(sqrt(S(loop.side > 0 ? 1.0 : -1.0) * loop.triangle->side()));
 }
 
 /// By what dependent positions are off, to first order; rows of loops that are placed in closed form are closed.

@@ -112,6 +112,7 @@ class Assembly {
   void findTriangles(const Mechanism& mechanism);
   void placeTriangles();
   void releaseTriangles();
+  void endWhereOpen();
   std::vector<S> opening();
   void placeAtStart();
   void measureFrames();
@@ -136,6 +137,7 @@ class Assembly {
   std::vector<Variable<S>*> coordinates_;  // positions of them
   std::vector<Signal<S>> positionRates_, ownRates_;
   std::vector<std::size_t> dependents_;  // states: the positions of coordinates that close loops, in their order
+  std::vector<bool> dependentsTurn_;     // of these: angles
   std::vector<S> opening_;               // of the present state
   struct Loop {
     std::unique_ptr<Triangle<S>> triangle;  // null where it is none

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <memory>
 #include <numbers>
@@ -16,6 +17,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "analyses/flow/needed_states.hpp"
 #include "analyses/roots/eigenvalue_bounds.hpp"
 #include "analyses/roots/root_family.hpp"
 #include "mechanics/assembly.hpp"
@@ -105,30 +107,6 @@ class MemoryBound {
   rlimit before_{};
 };
 
-/// The states that these outputs of a program depend on.
-std::set<int> statesOf(const Program& program, const std::set<int>& outputs) {
-  std::vector<char> isSeen(program.nodes().size(), 0);
-  std::vector<int> open;
-  const auto see = [&](int node) {
-    if (std::exchange(isSeen[node], 1) == 0) open.push_back(node);
-  };
-  for (const int output : outputs) see(program.outputNodes()[output]);
-  std::set<int> states;
-  while (!open.empty()) {
-    const int node = open.back();
-    open.pop_back();
-    if (program.nodes()[node].op == Op::state) states.insert(program.nodes()[node].a);
-    detail::forEachOperand(program.table(), node, see);
-  }
-  return states;
-}
-
-std::set<int> statesOf(const Program& program) {
-  std::set<int> outputs;
-  for (int i = 0; i < program.outputs(); ++i) outputs.insert(i);
-  return statesOf(program, outputs);
-}
-
 /// Where all frames are: what pictures are drawn of.
 Program recordedFrames(const Study& study) {
   const std::vector<std::string>& names = study.mechanism.frames();
@@ -149,21 +127,15 @@ void restUnread(const Study& study, Motion& motion) {
   const Mechanism& mechanism = study.mechanism;
   if (!mechanism.isClosed()) return;
   const std::vector<std::string> names = mechanism.stateNames();
-  std::set<int> asked = statesOf(recordedFrames(study));
-  for (int i = 0; i < motion.f.states(); ++i)
-    if (std::ranges::find(mechanism.dependents(), names[i]) == mechanism.dependents().end()) asked.insert(i);
-  asked.merge(statesOf(motion.g));
-  for (std::size_t before = 0; before != asked.size();) {
-    before = asked.size();
-    asked.merge(statesOf(motion.f, asked));
-  }
-  if (asked.size() == static_cast<std::size_t>(motion.f.states())) return;
-  Recorder recorder(motion.f.states(), motion.f.parameters());
-  const std::vector<int> nodes = recorder.append(motion.f);
-  std::vector<int> rates;
-  for (int i = 0; i < motion.f.states(); ++i)
-    rates.push_back(asked.contains(i) ? nodes[motion.f.outputNodes()[i]] : recorder.constant(0.0));
-  motion.f = recorder.finish(rates);
+  const Program others = record(motion.f.states(), motion.f.parameters(), motion.f.states(),
+                                [&](auto, const auto& x, const auto&, auto& y) {
+                                  for (std::size_t i = 0; i < names.size(); ++i) {
+                                    const auto& dependents = mechanism.dependents();
+                                    const bool depends = std::ranges::find(dependents, names[i]) != dependents.end();
+                                    y[i] = depends ? Recorded(0.0) : x[i];
+                                  }
+                                });
+  motion.f = withOthersAtRest(motion.f, neededStates(motion.f, std::array{others, recordedFrames(study), motion.g}));
 }
 
 Program recordedOutputs(const Study& study, const Rest* rest, bool withinEnds = false) {

@@ -134,7 +134,9 @@ void refuseUnprovedRest(const Study& study, const std::vector<std::string>& free
          fmt::format("{} not proved to exist{}", isPosition ? "a position of rest is" : "all modes at rest are",
                      valuesIn(freeParameters, part)),
          isPosition ? "narrower intervals: somewhere in these the position may vanish, or come together with another"
-                    : "narrower intervals, or outputs of other modes: somewhere in these two may come together");
+         : study.mechanism.degreesOfFreedom() > 1
+             ? "narrower intervals, or outputs of other modes: somewhere in these two may come together"
+             : "narrower intervals: somewhere in these its stiffness or its mass may vanish");
 }
 
 void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part) {

@@ -1,7 +1,9 @@
 #include "analyses/flow/needed_states.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "scalars/operations/op.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
@@ -25,6 +27,18 @@ void need(const Program& f, int node, std::vector<char>& isSeen, std::vector<cha
 
 std::vector<char> noneSeen(const Program& program) { return std::vector<char>(program.nodes().size(), 0); }
 
+/// Whether these nodes, but for those that were seen, depend on a root or a logarithm.
+bool dependOnRoots(const Program& program, std::vector<int> open, std::vector<char> isSeen) {
+  while (!open.empty()) {
+    const int i = open.back();
+    open.pop_back();
+    if (std::exchange(isSeen[i], 1) != 0) continue;
+    if (isOneSided(domainOf(program.nodes()[i].op))) return true;
+    detail::forEachOperand(program.table(), i, [&](int operand) { open.push_back(operand); });
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<char> neededStates(const Program& f, std::span<const Program> readers) {
@@ -34,10 +48,22 @@ std::vector<char> neededStates(const Program& f, std::span<const Program> reader
     std::vector<char> isSeenThere = noneSeen(reader);
     for (const int node : reader.outputNodes()) need(reader, node, isSeenThere, isNeeded, open);
   }
-  while (!open.empty()) {
-    const int state = open.back();
-    open.pop_back();
-    need(f, f.outputNodes()[state], isSeen, isNeeded, open);
+  const auto needAll = [&] {
+    while (!open.empty()) {
+      const int state = open.back();
+      open.pop_back();
+      need(f, f.outputNodes()[state], isSeen, isNeeded, open);
+    }
+  };
+  needAll();
+  if (std::ranges::none_of(
+          readers, [](const Program& reader) { return dependOnRoots(reader, reader.outputNodes(), noneSeen(reader)); }))
+    return isNeeded;
+  for (int state = 0; state < f.states(); ++state) {
+    if (isNeeded[state] != 0 || !dependOnRoots(f, {f.outputNodes()[state]}, isSeen)) continue;
+    isNeeded[state] = 1;
+    open.push_back(state);
+    needAll();
   }
   return isNeeded;
 }

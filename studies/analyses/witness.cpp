@@ -197,12 +197,18 @@ std::string WitnessResult::title() const { return "samples by other equations"; 
 
 std::vector<std::string> WitnessResult::told() const {
   if (number.empty()) return {};
-  double part = 0;
+  double part = 0, ofErrors = 0;
   for (std::size_t k = 0; k < number.size(); ++k)
-    for (std::size_t i = 0; i < size.size(); ++i)
-      if (size[i] > 0) part = std::max(part, apart(k, i) / size[i]);
-  return {fmt::format("{}, followed by forces and multipliers in balance (IDA), {} by {} of outputs' amounts at most",
-                      countText(number.size(), "sample"), number.size() == 1 ? "differs" : "differ", atMostText(part))};
+    for (std::size_t i = 0; i < size.size(); ++i) {
+      if (!(size[i] > 0)) continue;
+      part = std::max(part, apart(k, i) / size[i]);
+      ofErrors = std::max(ofErrors, error(k, i) / size[i]);
+    }
+  return {
+      fmt::format("{}, followed by forces and multipliers in balance (IDA), {} by {} of outputs' amounts at most; "
+                  "errors of both are {} at most",
+                  countText(number.size(), "sample"), number.size() == 1 ? "differs" : "differ", atMostText(part),
+                  atMostText(ofErrors))};
 }
 
 void WitnessResult::describe(std::vector<Group>& groups) {

@@ -219,6 +219,44 @@ TEST(ClosedLoopStudy, TellsWhatADrivenFourBarNeeds) {
   }
 }
 
+/// Cranks of the same length on pivots as far apart as the coupler is long: where all lie in one line, the loop may
+/// open either way, and no motion is the only one from there.
+std::string parallelCranks(const std::string& outputs) {
+  return "[study]\nanalysis = \"dynamics\"\nhorizon = 1\noutput_step = 0.04\n"
+         "compare = [\"interval\", \"stochastic\"]\n[stochastic]\nsamples = 32\n[mechanism]\n"
+         "parameters = { arm = \"350 mm\", post = \"200 mm\", w = \"1 rad/s\" }\nelement = [\n"
+         "{ type = \"revolute\", name = \"lower\", from = \"inertial\", to = \"A\", axis = \"z\" },\n"
+         "{ type = \"drive\", name = \"motor\", joint = \"lower\", position = \"20 deg + 6.5*w*t\" },\n"
+         "{ type = \"link\", name = \"la\", from = \"A\", to = \"Ae\", vector = [\"arm\", 0, 0] },\n"
+         "{ type = \"revolute\", name = \"knee\", from = \"Ae\", to = \"H\", axis = \"z\", "
+         "initial = { angle = \"-20 deg\" } },\n"
+         "{ type = \"mass\", name = \"mh\", at = \"H\", mass = \"600 g\", centre = [0, \"20 mm\", 0] },\n"
+         "{ type = \"link\", name = \"hp\", from = \"H\", to = \"He\", vector = [\"post\", 0, 0] },\n"
+         "{ type = \"link\", name = \"pp\", from = \"inertial\", to = \"U\", vector = [\"post\", 0, 0] },\n"
+         "{ type = \"revolute\", name = \"upper\", from = \"U\", to = \"B\", axis = \"z\", "
+         "initial = { angle = \"20 deg\" } },\n"
+         "{ type = \"mass\", name = \"mb\", at = \"B\", mass = \"600 g\", centre = [\"100 mm\", \"20 mm\", 0] },\n"
+         "{ type = \"link\", name = \"lb\", from = \"B\", to = \"Be\", vector = [\"arm\", 0, 0] },\n"
+         "{ type = \"closure\", name = \"pin\", as = \"pin\", from = \"Be\", to = \"He\" },\n]\n" +
+         uncertain({"w"}, "± 5 %") + outputs;
+}
+
+/// Nothing is proved of the times behind: neither by what is integrated nor by a closed form, nor by requirements
+/// alone.
+TEST(ClosedLoopStudy, EndsWhereItMayGoOnInMoreWaysThanOne) {
+  const std::string moment = "[[output]]\nquantity = \"motor.force\"\n",
+                    angle = "[[output]]\nquantity = \"upper.angle\"\n",
+                    limit = "[[requirement]]\nname = \"weak\"\nalways = \"motor.force < 1 N m\"\n";
+  constexpr double line = 0.45;  // s, at the latest
+  for (const std::string& outputs : {moment, angle + moment, moment + limit, angle + limit}) {
+    const Results results = run(machineOf(parallelCranks(outputs)), {});
+    EXPECT_LT(results.interval.reached, line) << outputs;
+    EXPECT_LT(results.stochastic.reached, line) << outputs;
+    EXPECT_GT(2 * results.stochastic.failures, results.stochastic.integrated) << outputs;  // some cross their links
+    for (const RequirementResult& requirement : results.requirements) EXPECT_EQ(requirement.word, Decision::open);
+  }
+}
+
 /// `text` with another element ahead of the closure.
 std::string with(std::string text, const std::string& element) {
   return text.insert(text.find("[[mechanism.element]]\ntype = \"closure\""), "[[mechanism.element]]\n" + element);
