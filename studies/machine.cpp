@@ -135,7 +135,9 @@ void restUnread(const Study& study, Motion& motion) {
                                     y[i] = depends ? Recorded(0.0) : x[i];
                                   }
                                 });
-  motion.f = withOthersAtRest(motion.f, neededStates(motion.f, std::array{others, recordedFrames(study), motion.g}));
+  // Where a triangle's root is above zero, the quotients in these rates have values too.
+  const std::array readers{others, recordedFrames(study), motion.g};
+  motion.f = withOthersAtRest(motion.f, neededStates(motion.f, readers, true));
 }
 
 Program recordedOutputs(const Study& study, const Rest* rest, bool withinEnds = false) {

@@ -27,13 +27,15 @@ void need(const Program& f, int node, std::vector<char>& isSeen, std::vector<cha
 
 std::vector<char> noneSeen(const Program& program) { return std::vector<char>(program.nodes().size(), 0); }
 
-/// Whether these nodes, but for those that were seen, depend on a root or a logarithm.
-bool dependOnRoots(const Program& program, std::vector<int> open, std::vector<char> isSeen) {
+/// Whether these nodes, but for those that were seen, depend on an operation that some numbers have no value by.
+bool dependOnPartial(const Program& program, std::vector<int> open, std::vector<char> isSeen, bool rootsAlone) {
   while (!open.empty()) {
     const int i = open.back();
     open.pop_back();
     if (std::exchange(isSeen[i], 1) != 0) continue;
-    if (isOneSided(domainOf(program.nodes()[i].op))) return true;
+    const Op op = program.nodes()[i].op;
+    if (isFunction(op) && isOneSided(domainOf(op))) return true;
+    if (!rootsAlone && (op == Op::solution || (isFunction(op) && domainOf(op) != Domain::everywhere))) return true;
     detail::forEachOperand(program.table(), i, [&](int operand) { open.push_back(operand); });
   }
   return false;
@@ -41,7 +43,7 @@ bool dependOnRoots(const Program& program, std::vector<int> open, std::vector<ch
 
 }  // namespace
 
-std::vector<char> neededStates(const Program& f, std::span<const Program> readers) {
+std::vector<char> neededStates(const Program& f, std::span<const Program> readers, bool rootsAlone) {
   std::vector<char> isNeeded(f.states(), 0), isSeen = noneSeen(f);
   std::vector<int> open;
   for (const Program& reader : readers) {
@@ -56,11 +58,8 @@ std::vector<char> neededStates(const Program& f, std::span<const Program> reader
     }
   };
   needAll();
-  if (std::ranges::none_of(
-          readers, [](const Program& reader) { return dependOnRoots(reader, reader.outputNodes(), noneSeen(reader)); }))
-    return isNeeded;
   for (int state = 0; state < f.states(); ++state) {
-    if (isNeeded[state] != 0 || !dependOnRoots(f, {f.outputNodes()[state]}, isSeen)) continue;
+    if (isNeeded[state] != 0 || !dependOnPartial(f, {f.outputNodes()[state]}, isSeen, rootsAlone)) continue;
     isNeeded[state] = 1;
     open.push_back(state);
     needAll();

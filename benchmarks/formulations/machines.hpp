@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/description/mechanism.hpp"
 #include "mechanics/elements/all.hpp"
 
 namespace gamut::benchmarks {

@@ -1,5 +1,5 @@
-// Each sample four times: by either solver at the study's tolerance and at a tenth of it. The latter two are compared;
-// what the former two differ from them by bounds their errors with a factor of some ten to spare.
+// Each sample four times: by either solver at the study's tolerance and at a hundredth of it. The latter two are
+// compared; what the former two differ from them by bounds their errors with a factor of some ten to spare.
 #include "studies/analyses/witness.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@
 namespace gamut {
 namespace {
 
-constexpr double tighter = 10, rounding = 0x1p-40;
+constexpr double tighter = 100, rounding = 0x1p-40;
 
 std::vector<Field> fieldsOf(WitnessResult& w) {
   using namespace dimension;
@@ -37,7 +37,7 @@ std::vector<Field> fieldsOf(WitnessResult& w) {
         unit::none,
         "how far both motions are apart at any output time, in the output's unit",
         {sample, output}},
-       {"error", &w.error, unit::none, "of both together, measured at ten times the tolerance", {sample, output}},
+       {"error", &w.error, unit::none, "of both together, measured at a hundred times the tolerance", {sample, output}},
        {"size", &w.size, unit::ofOutput, "greatest amount of the output in these motions", {output}}});
 }
 
@@ -169,7 +169,7 @@ class WitnessAnalysis final : public AnalysisOf<WitnessAnalysis, WitnessResult> 
         result.why = fmt::format("{} {}", before.stochastic.nameOf(number), why);
       }
     }
-    result.reached = run.study.horizon;
+    result.reached = result.number.empty() ? 0 : run.study.horizon;
     result.apart = Grid({result.number.size(), outputs}, std::move(apart));
     result.error = Grid({result.number.size(), outputs}, std::move(error));
     for (std::size_t k = 0; k < result.number.size(); ++k)

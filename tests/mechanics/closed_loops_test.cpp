@@ -97,7 +97,7 @@ TEST(ClosedLoops, RubAlikeHoweverTheyAreHeld) {
   Assembly<double> byMultipliers(held);
   const double before = byMultipliers.output("D.rate");
   std::vector<double> x;
-  Assembly<double> byCrank(rubbing(4));
+  Assembly<double> byCrank(rubbing(0));
   for (const std::string& name : held.stateNames()) x.push_back(byCrank.output(name));
   ASSERT_LT(before * byCrank.output("D.rate"), 0);
   byMultipliers.setState(x);

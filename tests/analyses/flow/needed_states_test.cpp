@@ -40,23 +40,23 @@ TEST(NeededStates, AreThoseThatOutputsDependOnAndAllThatTheseDependOn) {
   EXPECT_THAT(needed({}), ElementsAre(0, 0, 0, 0, 0));
 }
 
-/// An output by a root that has a value again behind where the motion of the second state ends.
-TEST(NeededStates, AreThoseWithARootWhereOutputsHaveOne) {
-  const Program f = record(4, 0, [](auto, const auto& x, const auto&, auto& dx) {
+/// An output that needs no state has values behind where the motion of the second one ends.
+TEST(NeededStates, AreThoseWhoseRatesMayHaveNoValue) {
+  const Program f = record(5, 0, [](auto, const auto& x, const auto&, auto& dx) {
     dx[0] = 0.0 * x[0];
     dx[1] = 1.0 / sqrt(1.0 - square(sin(x[3])));
     dx[2] = sqrt(1.0 - square(sin(x[3]))) + sqrt(square(sin(x[3])) + 1.0);
     dx[3] = 1.0;
+    dx[4] = 1.0 / (x[4] + 2.0);
   });
-  const auto reader = [](auto y0) {
-    return record(4, 0, 1, [y0](auto t, const auto&, const auto&, auto& y) { y[0] = y0(t); });
-  };
-  const Program byRoot = reader([](const auto& t) { return sqrt(1.0 - square(sin(t))); });
-  EXPECT_THAT(neededStates(f, std::array{reader([](const auto& t) { return cos(t); })}), ElementsAre(0, 0, 0, 0));
-  EXPECT_THAT(neededStates(f, std::array{byRoot}), ElementsAre(0, 1, 1, 1));  // the third for its second root
+  const Program byTime = record(5, 0, 1, [](auto t, const auto&, const auto&, auto& y) { y[0] = cos(t); });
+  const Program second = record(5, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[1]; });
+  EXPECT_THAT(neededStates(f, std::array{byTime}), ElementsAre(0, 1, 1, 1, 1));
+  EXPECT_THAT(neededStates(f, std::array{byTime}, true), ElementsAre(0, 1, 1, 1, 0));
+  EXPECT_THAT(neededStates(f, std::array{second}, true), ElementsAre(0, 1, 1, 1, 0));  // the third by its other root
   FlowOptions options;
   options.dropsUnneeded = true;
-  EXPECT_LT(Flow(f, byRoot, options).enclose(Box(4, Interval(0.0)), 3.0, {3.0}).reached(), 1.6);
+  EXPECT_LT(Flow(f, byTime, options).enclose(Box(5, Interval(0.0)), 3.0, {3.0}).reached(), 1.6);
 }
 
 TEST(NeededStates, AloneAreFollowedWhereThatIsAskedFor) {
