@@ -103,8 +103,7 @@ TEST(ClosedLoops, RubAlikeHoweverTheyAreHeld) {
   byMultipliers.setState(x);
   const std::vector<double> expected = byCrank.accelerations(), found = byMultipliers.accelerations();
   ASSERT_EQ(found.size(), 3U);
-  for (const double acceleration : found)
-    EXPECT_NEAR(acceleration, expected[&acceleration - found.data()], 1e-9 * std::abs(acceleration));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], expected[i], 1e-9 * std::abs(expected[i])) << i;
 }
 
 /// Where the crank is driven nothing is left that moves by itself, and positions follow as states.
