@@ -15,14 +15,7 @@
 namespace gamut::balance {
 namespace {
 
-Closure pinned() {
-  Closure closure;
-  closure.name = "C";
-  closure.from = "C2";
-  closure.to = "C1";
-  closure.as = "pin";
-  return closure;
-}
+using testing::pinned;
 
 /// The rows of a four-bar vanish at its own accelerations and some multipliers (whose directions are the program's
 /// own), and nowhere near them.

@@ -19,14 +19,7 @@ namespace {
 
 using Number = testing::HighPrecision;
 
-Closure pinned() {
-  Closure closure;
-  closure.name = "C";
-  closure.from = "C2";
-  closure.to = "C1";
-  closure.as = "pin";
-  return closure;
-}
+using testing::pinned;
 
 testing::FourBarMotion<Number> truth(const Number& angle, const Number& rate) {
   return testing::fourBarByHand<Number>(angle, rate, {Number("0.3"), Number("0.8"), Number("0.6"), Number("0.9")},

@@ -11,6 +11,16 @@
 
 namespace gamut::testing {
 
+/// Coupler and rocker by a pin.
+inline Closure pinned() {
+  Closure closure;
+  closure.name = "C";
+  closure.from = "C2";
+  closure.to = "C1";
+  closure.as = "pin";
+  return closure;
+}
+
 /// The crank at `angle` and `rate`, the coupler's and the rocker's angles where the closed position is looked for.
 /// Lengths a, b, c, d.
 inline Mechanism fourBar(const Closure& closure, double rate = 4, double angle = 1,
