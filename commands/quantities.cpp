@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -16,8 +14,8 @@
 #include "commands/options.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
-#include "mechanics/assembly.hpp"
 #include "reports/text_table.hpp"
+#include "studies/known_quantities.hpp"
 #include "studies/study.hpp"
 #include "studies/words.hpp"
 
@@ -29,47 +27,14 @@ struct QuantitiesArguments {
   bool json = false;
 };
 
-struct Quantity {
-  std::string name, unit;
-  double nominal = 0;
-};
-
-/// The decimal of 15 digits, where it is one of the nominal values: 0.02 in [0.01999…97, 0.02].
-double readable(const Interval& nominal) {
-  const double middle = midpoint(nominal), decimal = std::strtod(fmt::format("{:.15g}", middle).c_str(), nullptr);
-  return contains(nominal, decimal) ? decimal : middle;
-}
-
-std::vector<Quantity> numbersOf(const Mechanism& mechanism) {
-  std::vector<Quantity> numbers;
-  for (const std::string& name : mechanism.quantities())
-    numbers.push_back({name, mechanism.unitOf(name), readable(mechanism.nominal(name))});
-  return numbers;
-}
-
-/// Not a number where it has no value: an acceleration of what moves no mass.
-double valueOf(const Assembly<double>& assembly, const std::string& name) {
-  try {
-    return assembly.output(name) + 0.0;  // no -0
-  } catch (const std::domain_error&) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-}
-
 /// With their values at the start.
-std::vector<Quantity> outputsOf(const Mechanism& mechanism, const std::string& study) {
-  try {
-    const Assembly<double> assembly(mechanism);
-    std::vector<Quantity> outputs;
-    for (const std::string& name : mechanism.outputQuantities())
-      outputs.push_back({name, mechanism.unitOf(name), valueOf(assembly, name)});
-    return outputs;
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(study + ": " + error.what());
-  }
+std::vector<KnownQuantity> outputsOf(const Mechanism& mechanism, const std::string& study) try {
+  return measurableOf(mechanism);
+} catch (const std::invalid_argument& error) {
+  throw UsageError(study + ": " + error.what());
 }
 
-std::string text(std::string_view title, const std::vector<Quantity>& quantities, const char* instead) {
+std::string text(std::string_view title, const std::vector<KnownQuantity>& quantities, const char* instead) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, unit, nominal] : quantities)
     rows.push_back(
@@ -77,11 +42,11 @@ std::string text(std::string_view title, const std::vector<Quantity>& quantities
   return fmt::format("{}\n{}", title, rows.empty() ? instead : textTable(rows, 2));
 }
 
-std::string json(const std::vector<Quantity>& numbers, const std::vector<Quantity>& outputs) {
+std::string json(const std::vector<KnownQuantity>& numbers, const std::vector<KnownQuantity>& outputs) {
   using Json = nlohmann::ordered_json;
-  const auto list = [](const std::vector<Quantity>& quantities) {
+  const auto list = [](const std::vector<KnownQuantity>& quantities) {
     Json array = Json::array();
-    for (const Quantity& q : quantities)
+    for (const KnownQuantity& q : quantities)
       array.push_back({{"quantity", q.name},
                        {"unit", q.unit},
                        {"nominal", std::isfinite(q.nominal) ? Json(q.nominal) : Json(nullptr)}});
@@ -93,7 +58,7 @@ std::string json(const std::vector<Quantity>& numbers, const std::vector<Quantit
 ExitCode list(const QuantitiesArguments& arguments) {
   const StudyText study = readStudyFile(arguments.study);
   const Mechanism mechanism = readMechanismText(study.text, study.name);
-  const std::vector<Quantity> numbers = numbersOf(mechanism), outputs = outputsOf(mechanism, study.name);
+  const std::vector<KnownQuantity> numbers = numbersOf(mechanism), outputs = outputsOf(mechanism, study.name);
   sayOut(arguments.json ? json(numbers, outputs)
                         : text("What can be uncertain, with its nominal value:", numbers, "  nothing\n") + "\n" +
                               text("What can be an output, with its value at the start:", outputs,
