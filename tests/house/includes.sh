@@ -6,7 +6,7 @@ set -euo pipefail
 table=$(readlink -f "$2")
 cd "$1"
 roots=()
-for root in scalars mechanics analyses studies reports commands include benchmarks tests gamut.cpp; do
+for root in scalars mechanics analyses studies reports commands python include benchmarks tests gamut.cpp; do
   [ ! -e $root ] || roots+=($root)
 done
 [ ${#roots[@]} -gt 0 ] || { echo "there are no sources in $1"; exit 2; }

@@ -1,0 +1,43 @@
+"""Functions of floats, NumPy's arrays, intervals and recorded numbers alike."""
+
+import numpy
+
+from . import _gamut
+
+_ONE = ("sin cos tan arcsin arccos arctan sinh cosh tanh arcsinh arccosh arctanh exp exp2 expm1 log log2 log10 log1p "
+        "sqrt cbrt square sign").split()
+_TWO = "arctan2 hypot minimum maximum".split()
+_OURS = (_gamut.Interval, _gamut.Recorded)
+
+
+def _of_one(name):
+    of_numpy = getattr(numpy, name)
+
+    def function(x):
+        return getattr(x, name)() if isinstance(x, _OURS) else of_numpy(x)
+
+    function.__doc__ = f"{name} of a float, an array, an Interval or a recorded number."
+    return function
+
+
+def _of_two(name):
+    of_numpy = getattr(numpy, name)
+
+    def function(x, y):
+        for kind in (_gamut.Recorded, _gamut.Interval):
+            if isinstance(x, kind) or isinstance(y, kind):
+                return getattr(x if isinstance(x, kind) else kind(x), name)(y)
+        return of_numpy(x, y)
+
+    function.__doc__ = f"{name} of floats, arrays, Intervals or recorded numbers."
+    return function
+
+
+for _name in _ONE + _TWO:
+    globals()[_name] = (_of_one if _name in _ONE else _of_two)(_name)
+    globals()[_name].__name__ = _name
+
+where = _gamut.where
+where.__doc__  # of recorded numbers alone: x where the condition is above 0, y where it is below
+
+__all__ = [*_ONE, *_TWO, "where"]

@@ -1,0 +1,203 @@
+"""What a user asks: a mechanism, what of it is uncertain, which outputs are wanted, by which analyses."""
+
+import json
+import os
+import tomllib
+from typing import NamedTuple
+
+from . import _gamut, toml
+from .errors import Interrupted
+from .progress import told
+from .results import Results
+
+_SECTIONS = json.loads(_gamut.schema())["properties"]
+
+
+class Quantity(NamedTuple):
+    """A number of a mechanism, with its unit and its nominal value, or its value at the start (NaN: it has none)."""
+
+    name: str
+    unit: str
+    nominal: float
+
+
+class Quantities(NamedTuple):
+    """What can be uncertain, and what can be an output: a Quantity by its name."""
+
+    uncertain: dict
+    outputs: dict
+
+    def _repr_html_(self):
+        def table(title, quantities):
+            rows = "".join(f"<tr><td>{q.name}</td><td>{q.nominal:.12g}</td><td>{q.unit}</td></tr>" for q in quantities)
+            return f"<table><caption>{title}</caption><tr><th>name<th>value<th>unit</tr>{rows}</table>"
+
+        return table("can be uncertain", self.uncertain.values()) + table("can be outputs", self.outputs.values())
+
+
+class Settings(dict):
+    """A section of a study, whose keys are attributes too."""
+
+    def __repr__(self):
+        return f"{type(self).__name__}({dict(self)})"
+
+    def __setattr__(self, key, value):
+        if not isinstance(getattr(type(self), key, None), property):
+            known = ", ".join(k for k in dir(type(self)) if isinstance(getattr(type(self), k), property))
+            raise AttributeError(f"[{type(self).__name__}] has no setting '{key}'; expected one of: {known}")
+        object.__setattr__(self, key, value)
+
+
+def _setting(key, schema):
+    def read(self):
+        return self.get(key)
+
+    def write(self, value):
+        if value is None:
+            self.pop(key, None)
+        else:
+            self[key] = value
+
+    return property(read, write, None, schema.get("description", ""))
+
+
+def _settings_type(name, schema):
+    members = {key: _setting(key, of) for key, of in schema.get("properties", {}).items()}
+    return type(name, (Settings,), {"__doc__": schema.get("description", Settings.__doc__), **members})
+
+
+_TYPES = {name: _settings_type(name, schema) for name, schema in _SECTIONS.items() if "properties" in schema}
+_OF_STUDY = frozenset(_SECTIONS["study"]["properties"])
+
+
+def _taken(name, value):
+    """A section as it is kept."""
+    if name in _TYPES:
+        return _TYPES[name](value)
+    return [dict(each) for each in value]
+
+
+def _told_of(section):
+    def read(self):
+        if section not in self._data and section in _TYPES:
+            self._data[section] = _TYPES[section]()
+        return self._data.setdefault(section, [])
+
+    def write(self, value):
+        self._data[section] = _taken(section, value)
+
+    return property(read, write, None, _SECTIONS[section].get("description", f"[{section}] of the study file"))
+
+
+class Study:
+    """A study file, or the same words in Python.
+
+    `Study("arm.toml")` reads a file. `Study(title=..., horizon=..., mechanism={...}, uncertain=[...], output=[...])` is
+    built of the words of the file: each section is a keyword, a dictionary or a list of dictionaries; the keys of
+    `[study]` may stand alone. Sections are attributes, and their settings attributes of these, with docstrings: `study.interval.tightness = 1.01`. What makes no sense is told by StudyError
+    when it is used, with line and column of `to_toml()`.
+    """
+
+    def __init__(self, path=None, /, **sections):
+        self._text, self._name, self._machine = None, "study", (None, None)
+        self._data = {}
+        if path is not None:
+            self._name = os.fspath(path)
+            self._text = _gamut.text_of(self._name)
+            self._parse()
+        for name, value in sections.items():
+            if name in _OF_STUDY and name not in _SECTIONS:
+                self.study[name] = value
+            elif name in _SECTIONS:
+                self._data[name] = _taken(name, value)
+            else:
+                known = ", ".join(sorted({*_SECTIONS, *_OF_STUDY}))
+                raise TypeError(f"a study has no section '{name}'; expected one of: {known}")
+
+    @classmethod
+    def from_toml(cls, text, name="study"):
+        """Of the text of a study file; `name` is what messages call it, and where paths of other files begin."""
+        study = cls()
+        study._text, study._name = text, name
+        study._parse()
+        return study
+
+    def _parse(self):
+        try:
+            data = tomllib.loads(self._text)
+        except tomllib.TOMLDecodeError:
+            _gamut.read(self._text, self._name)  # says where and what
+            raise
+        self._data = {k: _taken(k, v) if k in _SECTIONS and isinstance(v, (dict, list)) else v for k, v in data.items()}
+
+    def to_toml(self):
+        """The study as a file: word for word the one that was read, unless something was changed since."""
+        stated = {k: v for k, v in self._data.items() if v or k not in _SECTIONS}
+        if self._text is not None and tomllib.loads(self._text) == stated:
+            return self._text
+        return toml.dumps(stated)
+
+    def _read(self):
+        text = self.to_toml()
+        if self._machine[0] != text:
+            self._machine = (text, _gamut.read(text, self._name))
+        return self._machine[1]
+
+    def validate(self):
+        """Reads and checks all as for a run; returns notes on what may be a mistake. Throws StudyError."""
+        return list(self._read().notes)
+
+    def quantities(self):
+        """What of the mechanism can be uncertain, and what can be an output. The rest of the study may be missing."""
+        numbers, outputs = _gamut.quantities(self.to_toml(), self._name)
+        return Quantities(*({q[0]: Quantity(*q) for q in of} for of in (numbers, outputs)))
+
+    def run(self, *, samples=None, seed=None, jobs=None, time_limit=None, memory_limit=None, progress=True):
+        """Does what the study asks for; returns Results.
+
+        `samples` and `seed` take the place of the study's; `jobs`: threads, as many as the machine has unless given;
+        `time_limit`: CPU time, s; `memory_limit`: bytes that the process may have. A limit that was reached is no
+        exception: the results say so. `progress`: True for a bar, False, or what is called with a task and the fraction
+        done of it. An interrupt (Ctrl-C) throws Interrupted, which holds what was found and proved until then.
+        """
+        show, wipe = told(progress)
+        try:
+            held, was_interrupted = self._read().run(seed, samples, jobs, time_limit, memory_limit, show)
+        finally:
+            wipe()
+        if was_interrupted:
+            raise Interrupted(Results(held, self._name))
+        return Results(held, self._name)
+
+    def tolerance(self, *, jobs=None, time_limit=None, progress=True):
+        """By what factor the uncertain intervals may grow, or must shrink, so that all requirements are met."""
+        from .results import Tolerances
+
+        show, wipe = told(progress)
+        try:
+            nominal, together, alone, was_interrupted = self._read().tolerance(jobs, time_limit, show)
+        finally:
+            wipe()
+        found = Tolerances(nominal, together, alone)
+        if was_interrupted:
+            raise Interrupted(found)
+        return found
+
+    def __repr__(self):
+        title = self._data.get("study", {}).get("title", "untitled")
+        return f"<gamut.Study '{title}'>"
+
+
+for _name in _SECTIONS:
+    setattr(Study, _name, _told_of(_name))
+for _name in _OF_STUDY - set(_SECTIONS):
+    setattr(
+        Study,
+        _name,
+        property(
+            lambda self, key=_name: self.study.get(key),
+            lambda self, value, key=_name: setattr(self.study, key, value),
+            None,
+            _SECTIONS["study"]["properties"][_name].get("description", ""),
+        ),
+    )

@@ -1,0 +1,100 @@
+"""Plain differential equations: recorded from Python, enclosed by the same flow."""
+
+import math
+from fractions import Fraction
+
+import numpy
+import pytest
+
+import gamut
+
+
+def test_a_pendulum_is_enclosed():
+    flow = gamut.Flow(lambda t, x, p: [x[1], -p[0] * gamut.sin(x[0])], states=2, parameters=1,
+                      outputs=lambda t, x, p: [0.5 * x[1] ** 2 - p[0] * gamut.cos(x[0])])
+    tube = flow.enclose([1.0, 0.0, 9.81], 2.0, [1.0])
+    assert (list(tube.times), tube.reached, tube.why) == ([0.0, 1.0, 2.0], 2.0, "")
+    assert tube.states.shape == (3, 2, 2) and tube.outputs.shape == (3, 1, 2)
+    energy = -9.81 * math.cos(1.0)
+    assert abs(tube.outputs - energy).max() < 1e-9  # it is kept
+    assert tube.at(1.0)[0].lower == tube.states[1, 0, 0]
+
+
+def test_every_solution_of_a_box_is_inside():
+    tube = gamut.Flow(lambda t, x, p: [-p[0] * x[0]], 1, 1).enclose([(1.0, 2.0), (0.5, 1.0)], 1.0)
+    lower, upper = tube.states[-1, 0]
+    assert lower <= math.exp(-1) * (1 - 1e-15) and upper >= 2 * math.exp(-0.5) * (1 - 1e-15)
+    assert upper - lower < 1.02 * (2 * math.exp(-0.5) - math.exp(-1))
+
+
+def test_functions_of_numpy_are_recorded():
+    ours = gamut.Program(lambda t, x, p: [gamut.sin(x[0]) * gamut.sqrt(x[1]), gamut.hypot(x[0], x[1])], 2)
+    theirs = gamut.Program(lambda t, x, p: [numpy.sin(x[0]) * numpy.sqrt(x[1]), numpy.hypot(x[0], x[1])], 2)
+    assert str(ours) == str(theirs)
+    assert ours([0.3, 2.0]) == pytest.approx([math.sin(0.3) * math.sqrt(2), math.hypot(0.3, 2)], rel=1e-15)
+    vector = gamut.Program(lambda t, x, p: list(numpy.array([[0, 1], [-1, 0]]) @ numpy.array(x, dtype=object)), 2)
+    assert vector([2.0, 3.0]) == [3.0, -2.0]
+
+
+def test_programs_have_derivatives():
+    program = gamut.Program(lambda t, x, p: [x[0] ** 3 * p[0]], 1, 1).differentiated(with_parameters=True)
+    assert program([2.0], [5.0]) == [40.0, 60.0, 8.0]
+    x = program([gamut.Interval(2, 2.5)], [gamut.Interval(5)])[1]
+    assert x.lower <= 60 and x.upper >= 15 * 2.5**2
+
+
+@pytest.mark.parametrize("function", [
+    lambda t, x, p: [-x[0] if x[0] > 0 else x[0]],
+    lambda t, x, p: [max(x[0], 0.0)],
+    lambda t, x, p: [x[0] * bool(x[0])],
+    lambda t, x, p: [1.0 if x[0] == 0 else x[0]],
+])
+def test_a_branch_is_refused(function):
+    with pytest.raises(TypeError, match=r"has no value yet.*gamut\.where"):
+        gamut.Flow(function, 1)
+
+
+def test_math_is_refused_with_what_to_use():
+    with pytest.raises(TypeError, match=r"gamut\.sin"):
+        gamut.Flow(lambda t, x, p: [math.sin(x[0])], 1)
+
+
+def test_where_and_maximum_take_the_place_of_branches():
+    program = gamut.Program(lambda t, x, p: [gamut.where(x[0], x[0], -2 * x[0]), gamut.maximum(x[0], 0.0)], 1)
+    assert program([3.0]) == [3.0, 3.0] and program([-3.0]) == [6.0, 0.0]
+
+
+def test_what_makes_no_sense_is_refused():
+    with pytest.raises(ValueError):
+        gamut.Flow(lambda t, x, p: [x[0]], 2)
+    with pytest.raises(TypeError, match="no option 'tightnes'"):
+        gamut.Flow(lambda t, x, p: [x[0]], 1, tightnes=1.1)
+    with pytest.raises(ValueError):
+        gamut.Flow(lambda t, x, p: [x[0]], 1).enclose([1.0, 2.0], 1.0)
+    with pytest.raises(ZeroDivisionError):
+        gamut.Flow(lambda t, x, p: [1 / 0], 1)
+
+
+def test_an_early_end_is_no_exception():
+    tube = gamut.Flow(lambda t, x, p: [x[0] ** 2], 1).enclose([gamut.Interval(1, 1.1)], 2.0, [0.5])
+    assert 0.5 < tube.reached < 1 and tube.why
+    with pytest.raises(IndexError):
+        tube.at(1.5)
+
+
+def test_a_number_of_a_recording_is_no_use_behind_it():
+    kept = []
+    gamut.Program(lambda t, x, p: [kept.append(x[0]) or x[0]], 1)
+    with pytest.raises(RuntimeError):
+        kept[0] + 1.0
+
+
+def test_intervals_enclose():
+    assert 0.1 in gamut.Interval("0.1") and gamut.Interval("0.1").width > 0
+    x = gamut.Interval(1, 2)
+    assert tuple(x - x) == (-1.0, 1.0) and repr(x) == "Interval(1, 2)" and gamut.Interval(1.5) in x
+    assert 1 + x == gamut.Interval(2, 3) and tuple(x**2) == (1.0, 4.0) and tuple(abs(-x)) == (1.0, 2.0)
+    root = gamut.sqrt(gamut.Interval(2))
+    assert Fraction(root.lower) ** 2 <= 2 <= Fraction(root.upper) ** 2 and gamut.sin(0.5) == numpy.sin(0.5)
+    with pytest.raises(ValueError):
+        gamut.Interval("one")
