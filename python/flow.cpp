@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "analyses/flow/derivatives.hpp"
 #include "analyses/flow/flow.hpp"
 #include "python/doors.hpp"
 #include "python/recording.hpp"
@@ -66,11 +67,15 @@ struct Equation {
   bool hasOutputs;
   FlowOptions options;
 
-  Flow flow(const Work& work) const {
+  FlowOptions watched(const Work& work) const {
     FlowOptions own = options;
     own.progress = [&work](double fraction) { work.progress("enclosing", fraction); };
     own.cancelled = work.cancelled;
-    return hasOutputs ? Flow(f, g, own) : Flow(f, own);
+    return own;
+  }
+  Flow flow(const Work& work) const { return hasOutputs ? Flow(f, g, watched(work)) : Flow(f, watched(work)); }
+  DerivativeFlow derivatives(const std::vector<int>& by, const Work& work) const {
+    return hasOutputs ? DerivativeFlow(f, g, by, watched(work)) : DerivativeFlow(f, by, watched(work));
   }
 };
 
@@ -86,14 +91,36 @@ Equation equation(const py::function& function, int states, int parameters, cons
 struct Enclosed {
   Tube tube;
   std::size_t states, outputs;
+  std::vector<std::size_t> derivatives = {};  ///< where those of states lie behind the states: [state][component]
 };
 
 std::pair<Enclosed, bool> enclose(const Equation& equation, const Box& box, double horizon,
-                                  const std::vector<double>& times, const py::object& progress) {
+                                  const std::vector<double>& times, const std::vector<int>& by,
+                                  const py::object& progress) {
   Enclosed result{{}, static_cast<std::size_t>(equation.f.states()), static_cast<std::size_t>(equation.g.outputs())};
-  const bool wasInterrupted = interruptible(
-      progress, [&](const Work& work) { result.tube = equation.flow(work).enclose(box, horizon, times); });
+  const bool wasInterrupted = interruptible(progress, [&](const Work& work) {
+    if (by.empty()) {
+      result.tube = equation.flow(work).enclose(box, horizon, times);
+      return;
+    }
+    const DerivativeFlow flow = equation.derivatives(by, work);
+    result.tube = flow.enclose(box, horizon, times);
+    for (int i = 0; i < equation.f.states(); ++i)
+      for (int k = 0; k < static_cast<int>(by.size()); ++k) result.derivatives.push_back(flow.derivative(i, k));
+  });
   return {std::move(result), wasInterrupted};
+}
+
+/// [time][state][component][lower, upper]
+py::object derivativesOf(const Enclosed& e) {
+  if (e.derivatives.empty()) return py::none();
+  std::vector<Interval> row(e.derivatives.size());
+  const py::array_t<double> all = boundsOf(
+      e.tube, row.size(), [&](std::size_t i) -> auto& {
+        std::ranges::transform(e.derivatives, row.begin(), [&](std::size_t at) { return e.tube.states(i)[at]; });
+        return row;
+      });
+  return all.attr("reshape")(e.tube.reachedTimes(), e.states, row.size() / e.states, 2);
 }
 
 }  // namespace
@@ -102,7 +129,7 @@ void bindFlow(py::module_& module) {
   py::class_<Equation>(module, "Equation")
       .def(py::init(&equation), "function"_a, "states"_a, "parameters"_a, "outputs"_a)
       .def_property_readonly("program", [](const Equation& e) { return e.f; })
-      .def("enclose", enclose, "box"_a, "horizon"_a, "times"_a, "progress"_a);
+      .def("enclose", enclose, "box"_a, "horizon"_a, "times"_a, "by"_a, "progress"_a);
   py::class_<Enclosed>(module, "Tube", "Enclosures of all solutions that start in a box.")
       .def_property_readonly(
           "times", [](const Enclosed& e) { return py::array(py::cast(e.tube.times())); },
@@ -149,6 +176,10 @@ void bindFlow(py::module_& module) {
                 e.tube, e.outputs, [&](std::size_t i) -> auto& { return e.tube.outputsOver(i); });
           },
           "Likewise, over the whole interval since the time before.")
+      .def_property_readonly(
+          "derivatives", derivativesOf,
+          "Bounds of the states' derivatives by the components of the box that were asked for: time x "
+          "state x component x (lower, upper); None without.")
       .def(
           "at", [](const Enclosed& e, double time) { return e.tube.at(time); }, "time"_a,
           "An interval for each state at an output time, or over the interval between two that holds the time (s).");

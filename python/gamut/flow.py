@@ -23,13 +23,14 @@ class Flow:
         """The recorded right-hand side."""
         return self._equation.program
 
-    def enclose(self, box, horizon, times=(), *, progress=False):
+    def enclose(self, box, horizon, times=(), *, derivatives_by=(), progress=False):
         """A Tube: bounds at `times` (s, rising) and the horizon. `box`: initial values, then parameters; numbers,
-        Intervals or pairs of bounds. An enclosure that ends early is no exception: Tube.why says so."""
+        Intervals or pairs of bounds. `derivatives_by`: numbers of components of the box, by which derivatives of the
+        states are enclosed too (Tube.derivatives). An enclosure that ends early is no exception: Tube.why says so."""
         show, wipe = told(progress)
         box = [_gamut.Interval(*map(float, each)) if isinstance(each, (tuple, list)) else each for each in box]
         try:
-            tube, was_interrupted = self._equation.enclose(box, horizon, list(times), show)
+            tube, was_interrupted = self._equation.enclose(box, horizon, list(times), list(derivatives_by), show)
         finally:
             wipe()
         if was_interrupted:

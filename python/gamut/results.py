@@ -243,6 +243,37 @@ class Results:
         values = [self._text_of(path) for path in columns.values()]
         return _framed([dict(zip(columns, row)) for row in zip(*values)])
 
+    def _rows(self, group, dimensions):
+        """The fields of a group that have these dimensions, a row for every combination of their places; none of NaN alone."""
+        fields = {path.rsplit("/", 1)[-1]: f.array() for path, f in self.fields.items()
+                  if path.startswith(group + "/") and f.dimensions == dimensions}  # fmt: skip
+        fields = {name: array for name, array in fields.items() if array is not None and array.size}
+        if not fields:
+            return _framed([])
+        places = [self.value(path) for path in dimensions]
+        names = [path.rsplit("/", 1)[-1] for path in dimensions]
+        rows = []
+        for index in np.ndindex(*(len(each) for each in places)):
+            row = {name: array[index] for name, array in fields.items()}
+            if not all(np.all(np.isnan(number)) for number in row.values()):
+                rows.append({**{name: of[i] for name, of, i in zip(names, places, index)}, **row})
+        return _framed(rows)
+
+    @property
+    def probabilities(self):
+        """A row a time, output and value: proved bounds of the probability that the output is not above the value."""
+        return self._rows("/distribution", ("/distribution/time", "/output", "/distribution/point"))
+
+    @property
+    def sensitivity(self):
+        """A row a time, output and quantity: proved bounds of its Sobol' index and total index, and their estimates."""
+        return self._rows("/sensitivity", ("/sensitivity/time", "/output", "/quantity"))
+
+    @property
+    def derivatives(self):
+        """Likewise, bounds of the derivatives of outputs by quantities, where the study asks for them."""
+        return self._rows("/derivatives", ("/derivatives/time", "/output", "/quantity"))
+
     def __getitem__(self, name):
         if name not in self.outputs:
             known = ", ".join(f"'{each}'" for each in self.keys())

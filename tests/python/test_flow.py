@@ -1,12 +1,20 @@
 """Plain differential equations: recorded from Python, enclosed by the same flow."""
 
 import math
+from decimal import Decimal, getcontext
 from fractions import Fraction
 
 import numpy
 import pytest
 
 import gamut
+
+getcontext().prec = 50
+
+
+def encloses(bounds, truth):
+    """Exactly: doubles are decimals."""
+    return Decimal(float(bounds[0])) <= truth <= Decimal(float(bounds[1]))
 
 
 def test_a_pendulum_is_enclosed():
@@ -22,9 +30,20 @@ def test_a_pendulum_is_enclosed():
 
 def test_every_solution_of_a_box_is_inside():
     tube = gamut.Flow(lambda t, x, p: [-p[0] * x[0]], 1, 1).enclose([(1.0, 2.0), (0.5, 1.0)], 1.0)
+    for start in (Decimal(1), Decimal("1.5"), Decimal(2)):
+        for rate in (Decimal("0.5"), Decimal("0.75"), Decimal(1)):
+            assert encloses(tube.states[-1, 0], start * (-rate).exp())
     lower, upper = tube.states[-1, 0]
-    assert lower <= math.exp(-1) * (1 - 1e-15) and upper >= 2 * math.exp(-0.5) * (1 - 1e-15)
     assert upper - lower < 1.02 * (2 * math.exp(-0.5) - math.exp(-1))
+
+
+def test_derivatives_are_enclosed_with_the_motion():
+    tube = gamut.Flow(lambda t, x, p: [-p[0] * x[0]], 1, 1).enclose([2.0, (0.5, 1.0)], 1.0, derivatives_by=[0, 1])
+    assert tube.derivatives.shape == (2, 1, 2, 2) and tube.states.shape == (2, 1, 2)
+    for rate in (Decimal("0.5"), Decimal("0.75"), Decimal(1)):
+        assert encloses(tube.derivatives[-1, 0, 0], (-rate).exp())
+        assert encloses(tube.derivatives[-1, 0, 1], -2 * (-rate).exp())
+    assert tube.derivatives[-1].max() < 0.7 and gamut.Flow(lambda t, x, p: [x[0]], 1).enclose([1], 1).derivatives is None
 
 
 def test_functions_of_numpy_are_recorded():

@@ -36,6 +36,15 @@ def test_the_verdict_and_requirements_are_told(results):
     assert results.summary()["verdict"] == "inside"
 
 
+def test_probabilities_and_sensitivities_are_rows(results):
+    probabilities = results.probabilities
+    assert (probabilities["lower"] <= probabilities["upper"]).all() and set(probabilities["output"]) >= {"angle", "height"}
+    assert len(probabilities) == (~numpy.isnan(results.value("/distribution/value"))).sum()
+    sensitivity = results.sensitivity
+    assert set(sensitivity["quantity"]) == {"length"} and (sensitivity["first_lower"] <= sensitivity["first_upper"]).all()
+    assert len(results.derivatives) == 0
+
+
 def test_a_dataset_holds_every_array(results):
     data = results.to_xarray()
     at = data.interval_at.sel(output="angle")
