@@ -36,6 +36,7 @@ Action tolerance(CLI::App& command);
 Action newStudy(CLI::App& command);
 Action quantities(CLI::App& command);
 Action schema(CLI::App& command);
+Action completion(CLI::App& command);
 
 inline constexpr Command table[] = {
     {"new", "Write a study to start from, which explains itself", newStudy},
@@ -51,6 +52,7 @@ inline constexpr Command table[] = {
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},
     {"sample", "Many samples of outputs without integrating, each with its proved error", sample},
     {"schema", "What a study file may hold, as JSON Schema: for editors, which complete and check it", schema},
+    {"completion", "What bash, zsh or fish complete this program's commands and options by", completion},
 };
 
 }  // namespace commands
