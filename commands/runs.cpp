@@ -40,7 +40,8 @@ void sayAside(const std::string& line) { std::fputs((printable(line) + "\n").c_s
 ExitCode exitCodeOf(const Results& results, const Verdict& verdict) {
   if (results.stopped.starts_with(internalFailure)) return failed;
   if (results.comparison.present) return exitCode(verdict);
-  return whyEnded(results).empty() && verdict.unbounded == 0 ? done : endedEarly;
+  const bool isWhole = whyEnded(results).empty() && unfinishedPart(results).empty() && verdict.unbounded == 0;
+  return isWhole ? done : endedEarly;
 }
 
 std::string nameOrNone(const std::string& file) { return file.empty() ? "none was written" : file; }

@@ -245,8 +245,9 @@ std::string ofRequirements(const Results& results) {
 
 /// How far a run came that did not come to its end.
 std::string ofEnd(const Results& results, const Verdict& verdict) {
-  const std::string why = whyEnded(results);
-  if (why.empty() && !verdict.endsEarly) return {};
+  const std::string why = whyEnded(results), unfinished = unfinishedPart(results);
+  if (why.empty() && !verdict.endsEarly)
+    return unfinished.empty() ? "" : fmt::format(" The computation is incomplete: {}.", whyUnfinished(results));
   const double reached = reachedTime(results);
   const bool isShort = results.horizon > 0 && reached < results.horizon;
   return fmt::format(" The computation is incomplete: it ended early{}{}.",

@@ -103,7 +103,7 @@ class Wording {
       note(fmt::format("Probabilities were not bounded to the end: {}.", distribution.stopped));
     for (const Boxed<FurtherPart>& part : results_.further)
       if (std::string text = part->unfinished(); !text.empty())
-        note(fmt::format("{}: {}.", capitalised(std::move(text)), part->stopped));
+        note(fmt::format("{}: {}.", capitalised(std::move(text)), part->whyUnfinished()));
   }
 
   void noteUnlikely() {

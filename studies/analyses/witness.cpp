@@ -172,13 +172,13 @@ class WitnessAnalysis final : public AnalysisOf<WitnessAnalysis, WitnessResult> 
     result.reached = result.number.empty() ? 0 : run.study.horizon;
     result.apart = Grid({result.number.size(), outputs}, std::move(apart));
     result.error = Grid({result.number.size(), outputs}, std::move(error));
-    for (std::size_t k = 0; k < result.number.size(); ++k)
-      for (std::size_t i = 0; i < outputs && result.why.empty(); ++i)
-        if (!result.agrees(k, i))
-          result.why =
-              fmt::format("{} differs by {} of '{}' from itself in balance, which errors of {} do not explain",
-                          before.stochastic.nameOf(static_cast<std::int64_t>(result.number[k])),
-                          numberText(result.apart(k, i)), run.study.outputs[i].name, numberText(result.error(k, i)));
+    if (const auto found = result.unexplained()) {
+      const auto [k, i] = *found;
+      result.why =
+          fmt::format("{} differs by {} of '{}' from itself in balance, which errors of {} do not explain",
+                      before.stochastic.nameOf(static_cast<std::int64_t>(result.number[k])),
+                      numberText(result.apart(k, i)), run.study.outputs[i].name, numberText(result.error(k, i)));
+    }
   } catch (const UnfitPart& unfit) {
     result.why = unfit.problem() + ", which no witness follows";
   }
@@ -191,6 +191,18 @@ class WitnessAnalysis final : public AnalysisOf<WitnessAnalysis, WitnessResult> 
 
 bool WitnessResult::agrees(std::size_t sample, std::size_t output) const {
   return apart(sample, output) <= error(sample, output) + rounding * size[output];
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> WitnessResult::unexplained() const {
+  for (std::size_t k = 0; k < number.size(); ++k)
+    for (std::size_t i = 0; i < size.size(); ++i)
+      if (!agrees(k, i)) return std::pair{k, i};
+  return std::nullopt;
+}
+
+std::string WitnessResult::unfinished() const {
+  return unexplained() ? "differences from themselves in balance are more than errors explain"
+                       : FurtherPart::unfinished();
 }
 
 std::string WitnessResult::title() const { return "samples by other equations"; }

@@ -75,8 +75,10 @@ struct FurtherPart : TimedPart {
   virtual std::string_view verb() const = 0;
   /// What is found, in sentences of a line each, where that is not seen elsewhere.
   virtual std::vector<std::string> told() const { return {}; }
-  /// "derivatives were not enclosed to the end"; empty unless it was stopped.
-  std::string unfinished() const;
+  /// What keeps a verdict from being complete: "derivatives were not enclosed to the end"; empty if nothing does.
+  virtual std::string unfinished() const;
+  /// Why.
+  const std::string& whyUnfinished() const { return stopped.empty() ? why : stopped; }
 
  protected:
   FurtherPart() = default;

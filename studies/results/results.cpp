@@ -78,6 +78,12 @@ std::string unfinishedPart(const Results& results) {
   return {};
 }
 
+std::string whyUnfinished(const Results& results) {
+  for (const Boxed<FurtherPart>& part : results.further)
+    if (!part->unfinished().empty()) return part->whyUnfinished();
+  return {};
+}
+
 double reachedTime(const Results& results) {
   double reached = results.horizon;
   for (const Answer* answer : results.answers())

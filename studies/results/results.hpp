@@ -71,8 +71,10 @@ const std::vector<Group> describe(const Results& results);
 /// The paths of the fields in which two results differ, in number of records, shape or a single bit.
 std::vector<std::string> differences(const Results& one, const Results& other);
 
-/// What a further part says that was stopped, the first one; empty if none was.
+/// What keeps a verdict from being complete, of the first further part that does; empty if none does.
 std::string unfinishedPart(const Results& results);
+/// Its reason.
+std::string whyUnfinished(const Results& results);
 
 /// The time up to which every analysis that was asked for got (s).
 double reachedTime(const Results& results);

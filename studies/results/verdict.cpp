@@ -248,6 +248,7 @@ std::string whyIncomplete(const Results& results, const Finding& finding) {
   if (!why.empty()) return why;
   if (finding.unbounded > 0) return unboundedText(results, finding);
   if (finding.word != Agreement::incomplete || finding.gap == Gap::noAnswers) return {};
+  if (finding.gap == Gap::further) return whyUnfinished(results);
   return finding.missing > 0 ? fmt::format("{} of the numbers to compare are missing", finding.missing)
                              : "an analysis ended before all was done";
 }

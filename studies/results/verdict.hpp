@@ -36,7 +36,7 @@ struct Finding {
     unbounded,    ///< what is guaranteed of an output is, somewhere, no finite interval
     end,          ///< the horizon was not reached, not all samples were followed, or numbers are missing
     probability,  ///< the bounds of probabilities were not found to the end
-    further,      ///< what was asked for besides was not
+    further,      ///< what was asked for besides was not found to its end, or does not agree
     stopped       ///< a limit or an interrupt kept the run from something else
   };
 

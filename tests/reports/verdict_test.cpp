@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "reports/json.hpp"
+#include "reports/plain.hpp"
 #include "reports/report.hpp"
 #include "reports/verdict.hpp"
 #include "studies/analyses/derivatives.hpp"
+#include "studies/analyses/witness.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/words.hpp"
 #include "tests/reports/example_results.hpp"
@@ -443,6 +445,26 @@ TEST(Verdict, OfARunThatEndedWhileItEnclosedDerivativesIsIncomplete) {
   EXPECT_EQ(verdict.word, Agreement::incomplete);
   EXPECT_THAT(verdict.sentence, EndsWith("Their derivatives were not enclosed to the end."));
   EXPECT_THAT(verdict.notes, ElementsAre("Derivatives were not enclosed to the end: the run was interrupted."));
+}
+
+TEST(Verdict, OfSamplesThatOtherEquationsContradictIsIncomplete) {
+  Results results = example::pendulum();
+  WitnessResult& witness = results.of<WitnessResult>();
+  witness.present = true;
+  witness.number = {0};
+  witness.apart = Grid({1, results.outputs.size()}, std::vector<double>(results.outputs.size(), 1e-9));
+  witness.error = Grid({1, results.outputs.size()}, std::vector<double>(results.outputs.size(), 1e-8));
+  witness.size.assign(results.outputs.size(), 1.0);
+  EXPECT_EQ(judge(results).word, Agreement::inside);
+  witness.apart.data.back() = 1e-7;
+  witness.why = "sample 0 differs by 1e-07 of 'x' from itself in balance, which errors of 1e-08 do not explain";
+  results.comparison.verdict = Agreement::incomplete;
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, Agreement::incomplete);
+  EXPECT_THAT(verdict.sentence, EndsWith("Their differences from themselves in balance are more than errors explain."));
+  EXPECT_THAT(verdict.notes,
+              ElementsAre("Differences from themselves in balance are more than errors explain: " + witness.why + "."));
+  EXPECT_THAT(plainSummary(results, verdict, 0), EndsWith("The computation is incomplete: " + witness.why + "."));
 }
 
 TEST(Verdict, OfARunThatWasStoppedIsIncompleteWhateverIsMissing) {

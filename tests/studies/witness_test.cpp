@@ -3,8 +3,9 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
+#include <cmath>
 #include <string>
+#include <utility>
 
 #include "studies/machine.hpp"
 #include "studies/results/verdict.hpp"
@@ -72,7 +73,8 @@ TEST(Witness, SaysThatItFollowsNoJumps) {
 
 TEST(Witness, SeesWhatErrorsDoNotExplain) {
   Results results = run(Machine(readStudyText(sampleStudy + "[witness]\nsamples = 2\n", "s.toml")), {});
-  WitnessResult found = results.of<WitnessResult>();
+  EXPECT_EQ(findVerdict(results).word, Agreement::inside);
+  WitnessResult& found = results.of<WitnessResult>();
   ASSERT_EQ(found.number.size(), 2U);
   EXPECT_EQ(found.number[1], results.stochastic.centre());
   EXPECT_TRUE(found.agrees(1, 0));
@@ -80,6 +82,22 @@ TEST(Witness, SeesWhatErrorsDoNotExplain) {
   found.apart(1, 0) = 1e-3;
   EXPECT_FALSE(found.agrees(1, 0));
   EXPECT_THAT(found.told().front(), HasSubstr("2 samples, followed by forces and multipliers in balance"));
+}
+
+/// Found from the numbers, whatever else is said.
+TEST(Witness, LeavesTheVerdictIncompleteWhereErrorsDoNotExplainADifference) {
+  Results results = run(Machine(readStudyText(sampleStudy + "[witness]\nsamples = 2\n", "s.toml")), {});
+  WitnessResult& found = results.of<WitnessResult>();
+  found.why = "sample 0 ends early";
+  EXPECT_EQ(findVerdict(results).word, Agreement::inside);
+  for (const double apart : {2 * found.error(0, 0) + 1e-9 * found.size[0], std::nan("")}) {
+    found.apart(0, 0) = apart;
+    EXPECT_EQ(found.unexplained(), (std::pair<std::size_t, std::size_t>{0, 0}));
+    const Finding finding = findVerdict(results);
+    EXPECT_EQ(finding.word, Agreement::incomplete);
+    EXPECT_EQ(finding.gap, Finding::Gap::further);
+    EXPECT_EQ(whyIncomplete(results, finding), found.why);
+  }
 }
 
 }  // namespace
