@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
+#include "mechanics/closing.hpp"
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/refusal.hpp"
 #include "mechanics/equations/loop_rows.hpp"
+#include "mechanics/open_loops.hpp"
 
 namespace gamut {
 namespace {
@@ -42,35 +45,108 @@ bool dependOn(const std::vector<Recorded>& values, Is is) {
 
 constexpr double leastSide = 1e-6;  // of a triangle that is known to be on it
 
-/// `at`: where they close after all, at a dead point of the coordinates by which they do.
-[[noreturn]] void refuseOpen(const Mechanism& mechanism, bool isFar, const std::optional<LoopGrip>& at) {
-  std::string loops, by;
+std::string loopsOf(const std::vector<std::string>& elements) {
+  std::string names;
+  for (const std::string& element : elements) names += (names.empty() ? "" : ", ") + inQuotes(element);
+  return (elements.size() == 1 ? "the loop " : "the loops ") + names;
+}
+
+/// `at`: where they close, at a dead point of the coordinates by which they do; `alike`: loops whose rows depend on
+/// each other there, where none would do.
+[[noreturn]] void refuseDeadPoint(const Mechanism& mechanism, const LoopGrip& at,
+                                  const std::vector<std::string>& alike) {
+  std::vector<std::string> loops;
+  for (const Mechanism::Closed& loop : mechanism.loops()) loops.push_back(loop.element);
+  const bool isAlike = at.best.empty();
+  const std::vector<std::string>& some = isAlike && !alike.empty() ? alike : loops;
+  const std::string start = loopsOf(some) + (some.size() == 1 ? " starts" : " start");
+  if (isAlike)
+    throw UnfitPart(
+        some.back(),
+        start + " where " +
+            (some.size() == 1 ? "its rows depend on each other" : "rows of one and the other say the same") +
+            ", so that nothing follows from the other coordinates",
+        some.size() == 1 ? "a closure that holds less (`pin` in planar loops), or another initial position: where all "
+                           "lies in one line, a loop may open in more ways than one"
+                         : "one of them alone, closures that hold less (`pin` in planar loops), or another initial "
+                           "position");
+  std::string best, by;
+  for (const std::string& name : mechanism.dependents()) by += (by.empty() ? "" : ", ") + name;
+  for (const std::string& name : at.best) best += (best.empty() ? "\"" : ", \"") + name + "\"";
+  throw UnfitPart(loops.front(), start + " at a dead point of " + by + ", which cannot follow from the others there",
+                  "others in `dependent`, such as [" + best + "], or another initial position");
+}
+
+/// How many of the rows, the first, are lengths.
+std::size_t lengthsOf(const Constraint<double>& constraint) {
+  const auto* closing = dynamic_cast<const Closing<double>*>(&constraint);
+  return closing == nullptr ? constraint.residuals().size() : closing->lengths();
+}
+
+/// What they leave open where that is least; angles within half a turn of `start`.
+OpenLoops::Nearest nearestOf(const Mechanism& mechanism, System<double>& system, const std::vector<double>& start,
+                             const NearestClosing& closing) {
+  constexpr double turn = 2 * std::numbers::pi;
+  OpenLoops::Nearest nearest;
+  for (std::size_t i = 0; i < closing.at.size(); ++i) {
+    const std::string& name = mechanism.dependents()[i];
+    const Coordinate kind = mechanism.coordinates().find(name)->kind;
+    const double by = closing.at[i] - start[i];
+    nearest.at.push_back(
+        {name, kind == Coordinate::angle ? start[i] + std::remainder(by, turn) : closing.at[i], unitOf(kind)});
+  }
+  const auto& constraints = system.chain().constraints();
+  double most = -1;
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < constraints.size(); ++k) {
+    const std::size_t rows = constraints[k]->residuals().size(), lengths = lengthsOf(*constraints[k]);
+    const Eigen::VectorXd own = Eigen::VectorXd::Map(closing.rows.data() + first, static_cast<Eigen::Index>(rows));
+    first += rows;
+    if (!(own.norm() > most)) continue;
+    most = own.norm();
+    nearest.distance = own.head(static_cast<Eigen::Index>(lengths)).norm();
+    nearest.angle = std::asin(std::min(1.0, own.tail(static_cast<Eigen::Index>(rows - lengths)).norm()));
+    nearest.loop = mechanism.loops()[constraints.size() == mechanism.loops().size() ? k : 0].element;
+  }
+  return nearest;
+}
+
+/// From `start`, and from a little beside it: where all lies in line no step may lead away from there.
+OpenLoops::Nearest nearestClosed(const Mechanism& mechanism, System<double>& system, const std::vector<double>& start,
+                                 const std::function<void(const std::vector<double>&)>& place) {
+  constexpr double aside = 0.2, closed = 1e-9;  // rad; of what a coordinate moves
+  const auto open = [](const NearestClosing& of) {
+    return Eigen::VectorXd::Map(of.rows.data(), static_cast<Eigen::Index>(of.rows.size())).norm();
+  };
+  std::vector<double> beside = start;
+  for (std::size_t k = 0; k < beside.size(); ++k)
+    if (mechanism.coordinates().find(mechanism.dependents()[k])->kind == Coordinate::angle)
+      beside[k] += aside * static_cast<double>(k + 1);
+  NearestClosing closing = nearestClosing(system, start, place);
+  if (NearestClosing other = nearestClosing(system, beside, place); !(open(closing) <= open(other)))
+    closing = std::move(other);
+  place(closing.at);
+  OpenLoops::Nearest nearest = nearestOf(mechanism, system, start, closing);
+  nearest.isClosed = open(closing) < closed * jacobianOfLoops(system).cwiseAbs().maxCoeff();
+  return nearest;
+}
+
+[[noreturn]] void refuseOpen(const Mechanism& mechanism, bool isFar, OpenLoops::Nearest nearest) {
+  std::vector<std::string> loops;
+  std::string by;
   for (const Mechanism::Closed& loop : mechanism.loops()) {
-    loops += (loops.empty() ? "'" : "', '") + loop.element;
+    loops.push_back(loop.element);
     for (const std::string& name : loop.by) by += (by.empty() ? "" : ", ") + name;
   }
-  const bool isOne = mechanism.loops().size() == 1;
-  if (at && at->best.empty())
-    throw UnfitPart(mechanism.loops().front().element,
-                    (isOne ? "the loop " : "the loops ") + loops + (isOne ? "' starts" : "' start") +
-                        " where its rows depend on each other, so that nothing follows from the other coordinates",
-                    "a closure that holds less (`pin` in planar loops), or another initial position: where all lies in "
-                    "one line, a loop may open in more ways than one");
-  if (at) {
-    std::string best;
-    for (const std::string& name : at->best) best += (best.empty() ? "\"" : ", \"") + name + "\"";
-    throw UnfitPart(mechanism.loops().front().element,
-                    (isOne ? "the loop " : "the loops ") + loops + (isOne ? "' starts" : "' start") +
-                        " at a dead point of " + by + ", which cannot follow from the others there",
-                    "others in `dependent`, such as [" + best + "], or another initial position");
-  }
-  throw UnfitPart(
-      mechanism.loops().front().element,
-      (isOne ? "the loop " : "the loops ") + loops + "' cannot be closed by " + by +
+  if (!isFar && nearest.isClosed) nearest.at.clear();
+  throw OpenLoops(
+      loops.front(),
+      loopsOf(loops) + " cannot be closed by " + by +
           (isFar ? " near their initial values" : ", which do not move all that has to close"),
       isFar ? "numbers that fit together, initial values nearer to the closed position, or others in `dependent`"
             : "coordinates that open it independently, named in `dependent`, or a closure that holds less "
-              "(`pin` in planar loops)");
+              "(`pin` in planar loops)",
+      std::move(nearest));
 }
 
 }  // namespace
@@ -240,6 +316,7 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism, const std::vector<std::
   };
   std::vector<S> at;
   for (const std::size_t i : dependents_) at.push_back(initialState_[i]);
+  const std::vector<S> start = at;
   if constexpr (std::is_same_v<S, double>) {
     // Largest last, so that what is no number is the largest.
     const auto size = [](const std::vector<double>& by) {
@@ -273,8 +350,14 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism, const std::vector<std::
     constexpr double dead = 1e-6;
     const LoopGrip grip = gripOfLoops(mechanism, *system_);
     const bool isClosed = size(system_->residuals()) < closed * jacobianOfLoops(*system_).cwiseAbs().maxCoeff();
-    if (!(size(by) < closed) || grip.share < dead)
-      refuseOpen(mechanism, size(by) == size(by), isClosed ? std::optional(grip) : std::nullopt);
+    if (!(size(by) < closed) || grip.share < dead) {
+      if (isClosed) refuseDeadPoint(mechanism, grip, loopsAlike(mechanism, *system_));
+      OpenLoops::Nearest nearest =
+          nearestClosed(mechanism, *system_, start, [&](const auto& positions) { openingAt(positions); });
+      if (const LoopGrip there = gripOfLoops(mechanism, *system_); nearest.isClosed && there.share < dead)
+        refuseDeadPoint(mechanism, there, loopsAlike(mechanism, *system_));
+      refuseOpen(mechanism, size(by) == size(by), std::move(nearest));
+    }
     for (Loop& loop : loops_)
       if (loop.triangle && !loop.triangle->given().empty()) loop.side = loop.triangle->side();
   } else {

@@ -92,6 +92,9 @@ class Closing final : public Constraint<S> {
     return rows;
   }
 
+  /// So many rows, the first, are lengths [m]; others are sines of how far angles are off.
+  std::size_t lengths() const { return directions_.size(); }
+
   std::vector<S> rates() const override {
     std::vector<S> rows;
     const auto [d, rate] = motion();

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 
 #include "mechanics/description/names.hpp"
 
@@ -20,7 +22,7 @@ Interval between(const Interval& lower, const Interval& upper) {
 bool isAngle(const Mechanism::JointCoordinate& coordinate) { return coordinate.kind == Coordinate::angle; }
 
 std::optional<FurtherAnalysis::Refusal> refusalOf(const Mechanism& mechanism, const std::string& name,
-                                                  const std::pair<Amount, Amount>& range) {
+                                                  const StatedRange& range) {
   using Refusal = FurtherAnalysis::Refusal;
   try {
     const Mechanism::JointCoordinate& joint = mechanism.coordinate(name, "ranges");
@@ -50,6 +52,8 @@ Interval turnAbout(double middle) {
 
 void CoordinateRegion::describe(Settings& s) {
   NumberOf angle{"rad"}, displacement{"m"};
+  angle.written = &angleUnit_;
+  displacement.written = &displacementUnit_;
   angle.least = displacement.least = 0;
   angle.fault = displacement.fault = "is below 0";
   angle.expected = displacement.expected = "how far from the initial value";
@@ -108,6 +112,29 @@ std::vector<CoordinateRegion::Side> CoordinateRegion::sides(const Mechanism& mec
     sides.push_back(std::move(side));
   }
   return sides;
+}
+
+std::string CoordinateRegion::units(const Study& study, std::size_t coordinates) const {
+  std::map<std::string, std::string, std::less<>> ofRanges;
+  for (const auto& [name, range] : ranges_)
+    if (!range.unit.empty()) ofRanges[study.mechanism.coordinate(name, "").name] = range.unit;
+  return unitsToldOf(study, coordinates, angleUnit_, displacementUnit_, ofRanges);
+}
+
+std::string unitsToldOf(const Study& study, std::size_t coordinates, const std::string& angles,
+                        const std::string& displacements,
+                        const std::map<std::string, std::string, std::less<>>& ofRanges) {
+  std::string units;
+  const std::vector<std::string> names = study.mechanism.stateNames();
+  for (std::size_t i = 0; i < coordinates; ++i) {
+    const Mechanism::JointCoordinate& joint = *study.mechanism.coordinates().find(names[i]);
+    const std::string own = gamut::unitOf(joint.kind), &looked = isAngle(joint) ? angles : displacements;
+    const auto range = ofRanges.find(names[i]);
+    std::string unit = range != ofRanges.end() ? range->second : study.unitTold(names[i], own);
+    if (unit == own && !looked.empty()) unit = looked;
+    units += (i > 0 ? ", " : "") + unit;
+  }
+  return units;
 }
 
 }  // namespace gamut

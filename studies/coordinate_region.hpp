@@ -1,6 +1,8 @@
 // In which region of the coordinates an analysis looks, as studies say it.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,11 +28,21 @@ class CoordinateRegion {
   };
   /// Of each coordinate that is a state, in the order of Mechanism::stateNames().
   std::vector<Side> sides(const Mechanism& mechanism) const;
+  /// Of these, the units in which people are told of them: that of the range, else unitsToldOf().
+  std::string units(const Study& study, std::size_t coordinates) const;
 
  private:
   std::optional<double> angles_, displacements_;
   NamedRanges ranges_;
+  std::string angleUnit_, displacementUnit_;
 };
+
+/// The units in which people are told of the first coordinates of Mechanism::stateNames(), with ", " between them: that
+/// of each as the study states it (Study::unitTold), else that in which it is looked at. `ofRanges`: by name, before
+/// all others.
+std::string unitsToldOf(const Study& study, std::size_t coordinates, const std::string& angles,
+                        const std::string& displacements,
+                        const std::map<std::string, std::string, std::less<>>& ofRanges = {});
 
 /// A whole turn about a middle, outward.
 Interval turnAbout(double middle);

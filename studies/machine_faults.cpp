@@ -17,8 +17,11 @@
 #include "mechanics/description/refusal.hpp"
 #include "mechanics/equations/loop_rows.hpp"
 #include "mechanics/model.hpp"
+#include "mechanics/open_loops.hpp"
 #include "scalars/recorded.hpp"
 #include "studies/printable.hpp"
+#include "studies/told.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -118,12 +121,25 @@ void refuseJointsAlike(const Study& study) {
 
 namespace {
 
-/// " for 'a' in [1, 2], 'b' in …"
-std::string valuesIn(const std::vector<std::string>& freeParameters, const Box& part) {
+/// " for 'a' in [1, 2] mm, 'b' in …", outward, as the study states them.
+std::string valuesIn(const Study& study, const std::vector<std::string>& freeParameters, const Box& part) {
+  constexpr int resolved = 3;  // digits of a width
   std::string values;
-  for (std::size_t i = 0; i < std::min(part.size(), freeParameters.size()); ++i)
-    values += fmt::format("{}'{}' in {}", i == 0 ? " for " : ", ", freeParameters[i], toString(part[i]));
+  for (std::size_t i = 0; i < std::min(part.size(), freeParameters.size()); ++i) {
+    const auto uncertain = std::ranges::find(study.uncertain, freeParameters[i], &UncertainQuantity::quantity);
+    const Told told = uncertain == study.uncertain.end() ? Told("", "") : Told(uncertain->unit, uncertain->told);
+    const auto [from, to] = told.of(part[i].lower(), part[i].upper());
+    const auto [lower, upper] = outwardBounds(from, to, 0, resolved);
+    values += fmt::format("{}'{}' in {}", i == 0 ? " for " : ", ", freeParameters[i],
+                          inUnit(fmt::format("[{}, {}]", lower, upper), told.unit()));
+  }
   return values;
+}
+
+/// A number of the mechanism, or of none of its own, as the study states such.
+std::string numberOf(const Study& study, double value, const std::string& name, const char* own) {
+  const Told told(own, study.unitTold(name, own));
+  return inUnit(numberText(told.of(value)), told.unit());
 }
 
 }  // namespace
@@ -132,7 +148,7 @@ void refuseUnprovedRest(const Study& study, const std::vector<std::string>& free
                         bool isPosition) {
   refuse(study.places.mechanism,
          fmt::format("{} not proved to exist{}", isPosition ? "a position of rest is" : "all modes at rest are",
-                     valuesIn(freeParameters, part)),
+                     valuesIn(study, freeParameters, part)),
          isPosition ? "narrower intervals: somewhere in these the position may vanish, or come together with another"
          : study.mechanism.degreesOfFreedom() > 1
              ? "narrower intervals, or outputs of other modes: somewhere in these two may come together"
@@ -140,7 +156,7 @@ void refuseUnprovedRest(const Study& study, const std::vector<std::string>& free
 }
 
 void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part) {
-  const std::string values = valuesIn(freeParameters, part);
+  const std::string values = valuesIn(study, freeParameters, part);
   const Mechanism::Closed& first = study.mechanism.loops().front();
   const bool isOne = study.mechanism.loops().size() == 1;
   refuse(study.places.of(first.element),
@@ -198,6 +214,11 @@ void refuseMechanism(const Study& study) try { throw; } catch (const UndefinedOu
                      study.analysis == Study::Analysis::dynamics ? "states" : "coordinates",
                      StatedLimits{}.resolved().memory / 1e9),
          "fewer joints one behind the other: what they do to each other grows with the square of their number");
+} catch (const OpenLoops& error) {
+  refuse(study.places.of(error.part()), error.problemIn([&](double value, const std::string& name, const char* unit) {
+    return numberOf(study, value, name, unit);
+  }),
+         error.expected());
 } catch (const UnfitPart& error) {
   refuse(study.places.of(error.part()), error.problem(), error.expected());
 } catch (const std::invalid_argument& error) {

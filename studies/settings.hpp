@@ -35,12 +35,17 @@ struct NumberOf {
   bool isAbove = false;                   ///< the least itself is not allowed
   std::string fault = {}, expected = {};  ///< what is said of one outside: "is not positive", "a number above 0"
   double scale = 1;                       ///< what is kept, of one of the unit
+  std::string* written = nullptr;         ///< the unit with which it is written goes here
 
   bool allows(double value) const { return (isAbove ? value > least : value >= least) && value <= most; }
 };
 
-/// From one number to another, both in their units, by names.
-using NamedRanges = std::map<std::string, std::pair<Amount, Amount>>;
+/// From one number to another, both in their units, one of which is written as `unit`; by names.
+struct StatedRange {
+  Amount first, second;
+  std::string unit;
+};
+using NamedRanges = std::map<std::string, StatedRange>;
 
 /// What a visitor does with each kind of setting; unless it says so, what it does with any.
 class Settings {

@@ -118,7 +118,7 @@ struct Study {
   std::vector<double> times;  ///< the output times, s, 0 first, rising, the horizon last
   std::set<std::string, std::less<>> compare{"fuzzy", "interval", "stochastic"};  ///< words of the answers asked for
   Mechanism mechanism;
-  std::map<std::string, std::string, std::less<>> unitsOfMasses;  ///< as they are stated, by element; where they are
+  std::map<std::string, std::string, std::less<>> units;  ///< in which numbers of the mechanism are stated, by name
   std::vector<UncertainQuantity> uncertain;
   QuantityDependence dependence;      ///< of these
   std::vector<WantedOutput> outputs;  ///< those of the requirements behind all others
@@ -139,6 +139,10 @@ struct Study {
   bool asksFor() const {
     return compare.contains(A::name);
   }
+
+  /// In which people are told of a number of the mechanism that is in the unit `own`: its own unit as it is stated or
+  /// looked at, else that in which most of its kind are stated.
+  std::string unitTold(const std::string& number, const std::string& own) const;
 
   /// Its word in files.
   std::string analysisName() const {

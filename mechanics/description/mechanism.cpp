@@ -24,6 +24,28 @@ constexpr const char* baseAccelerationName = "base_acceleration";
   throw Refusal(problem, expected);
 }
 
+/// Elements that move the frames from one to the other.
+std::unordered_set<std::string> elementsBetween(const Mechanism& mechanism, const std::string& from,
+                                                const std::string& to) {
+  const auto inwards = [&](std::string frame) {
+    std::vector<std::string> frames;
+    for (const auto* moved = mechanism.moved().find(frame); moved != nullptr; moved = mechanism.moved().find(frame)) {
+      frames.push_back(frame);
+      frame = moved->from;
+    }
+    return frames;
+  };
+  std::vector<std::string> one = inwards(to), other = inwards(from);
+  while (!one.empty() && !other.empty() && one.back() == other.back()) {
+    one.pop_back();
+    other.pop_back();
+  }
+  std::unordered_set<std::string> elements;
+  for (const auto* side : {&one, &other})
+    for (const std::string& frame : *side) elements.insert(mechanism.moved().find(frame)->element);
+  return elements;
+}
+
 /// Names of whole quantities, which parts of a mechanism must not have.
 bool isQuantity(const std::string& name) {
   return name == "gravity" || name == "t" || name == baseAccelerationName ||
@@ -315,22 +337,7 @@ void Mechanism::depend(const std::string& coordinate, const std::string& by) {
 
 std::vector<std::string> Mechanism::coordinatesBetween(const std::string& from, const std::string& to,
                                                        std::size_t needed) const {
-  const auto inwards = [this](std::string frame) {
-    std::vector<std::string> frames;
-    for (const Moved* moved = moved_.find(frame); moved != nullptr; moved = moved_.find(frame)) {
-      frames.push_back(frame);
-      frame = moved->from;
-    }
-    return frames;
-  };
-  std::vector<std::string> one = inwards(to), other = inwards(from);
-  while (!one.empty() && !other.empty() && one.back() == other.back()) {
-    one.pop_back();
-    other.pop_back();
-  }
-  std::unordered_set<std::string> elements;
-  for (const auto* side : {&one, &other})
-    for (const std::string& frame : *side) elements.insert(moved_.find(frame)->element);
+  const std::unordered_set<std::string> elements = elementsBetween(*this, from, to);
   std::vector<std::string> names;
   for (const JointCoordinate& coordinate : coordinates_)
     if (elements.contains(coordinate.element) && !coordinate.isDriven && !coordinate.isDependent &&
@@ -480,17 +487,34 @@ class Mechanism::Checker final : public Fields {
     start.isRising = m_.rangeOf(start.rate).upper() > 0;
     return struck.kind;
   }
+  /// Others of them may follow from a loop that is closed already, which may hold the same.
+  [[noreturn]] void refuseTooFew(const Loop& loop, const std::string& needed, std::size_t count) const {
+    const std::unordered_set<std::string> elements = elementsBetween(m_, loop.from, loop.to);
+    std::string others;
+    for (const Closed& closed : m_.loops_) {
+      std::string names;
+      for (const std::string& name : closed.by)
+        if (elements.contains(m_.coordinates_.find(name)->element)) names += (names.empty() ? "" : ", ") + name;
+      if (!names.empty())
+        others += (others.empty() ? ", while " : " and ") + names +
+                  (names.find(',') == std::string::npos ? " closes " : " close ") + inQuotes(closed.element);
+    }
+    refuse("the loop " + inQuotes(element_) + " is closed by " + needed + ", but between its frames " +
+               std::to_string(count) + " may follow from others" + others,
+           others.empty() ? "a loop with so many joints that move freely, balls and free bodies not counted, or a "
+                            "closure that holds less (`pin` in planar loops)"
+                          : "one loop alone where both hold the same, or a closure that holds less (`pin` in planar "
+                            "loops)");
+  }
   void dependentCoordinates(const Word& /*word*/, std::vector<std::string>& names, const Loop& loop) override {
     const bool isChosen = names.empty();
     if (isChosen) names = m_.coordinatesBetween(loop.from, loop.to, loop.rows);
     const std::string needed = std::to_string(loop.rows) + (loop.rows == 1 ? " coordinate" : " coordinates");
-    if (isChosen ? names.size() < loop.rows : names.size() != loop.rows)
-      refuse("the loop " + inQuotes(element_) + " is closed by " + needed + ", but " +
-                 (isChosen ? "between its frames " + std::to_string(names.size()) + " may follow from others"
-                           : std::to_string(names.size()) + (names.size() == 1 ? " is named" : " are named")),
-             isChosen ? "a loop with so many joints that move freely, balls and free bodies not counted, or a closure "
-                        "that holds less (`pin` in planar loops)"
-                      : needed);
+    if (isChosen && names.size() < loop.rows) refuseTooFew(loop, needed, names.size());
+    if (!isChosen && names.size() != loop.rows)
+      refuse("the loop " + inQuotes(element_) + " is closed by " + needed + ", but " + std::to_string(names.size()) +
+                 (names.size() == 1 ? " is named" : " are named"),
+             needed);
     names.erase(names.begin(), names.end() - static_cast<std::ptrdiff_t>(loop.rows));
     for (std::string& name : names) {
       found(name);

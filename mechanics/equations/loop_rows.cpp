@@ -83,6 +83,23 @@ ScaledRows scaledRows(const Mechanism& mechanism, System<double>& system) {
 
 }  // namespace
 
+std::vector<std::string> loopsAlike(const Mechanism& mechanism, System<double>& system) {
+  constexpr double some = 0.1;  // of the greatest number
+  const Eigen::MatrixXd jacobian = jacobianOfLoops(system);
+  if (jacobian.rows() == 0 || !jacobian.allFinite()) return {};
+  const Eigen::JacobiSVD<Eigen::MatrixXd> rows(jacobian, Eigen::ComputeFullU);
+  const Eigen::VectorXd numbers = rows.matrixU().col(jacobian.rows() - 1).cwiseAbs();
+  std::vector<std::string> names;
+  Eigen::Index first = 0;
+  for (const Mechanism::Closed& loop : mechanism.loops()) {
+    const Eigen::Index count = std::min(static_cast<Eigen::Index>(loop.by.size()), jacobian.rows() - first);
+    if (count > 0 && numbers.segment(first, count).maxCoeff() > some * numbers.maxCoeff())
+      names.push_back(loop.element);
+    first += count;
+  }
+  return names;
+}
+
 LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
   constexpr double nothing = 1e-7;  // of a row's greatest entry
   const auto [jacobian, coordinates] = scaledRows(mechanism, system);
@@ -104,6 +121,8 @@ LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
     rest -= direction * (direction.transpose() * rest);
   }
   LoopGrip grip{leastSingularValue(jacobian.rightCols(m)) / leastSingularValue(best), {}, 0.0, {}};
+  const Eigen::VectorXd all = jacobianOfLoops(system).jacobiSvd().singularValues();
+  grip.firmness = all.minCoeff() / all.maxCoeff();
   for (std::size_t j = 0; j < isTaken.size(); ++j)
     if (isTaken[j] != 0) grip.best.push_back(coordinates[j]->name);
   grip.determinant = jacobian.rightCols(m).partialPivLu().determinant();
@@ -113,6 +132,41 @@ LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
   for (Eigen::Index i = 0; i < m; ++i)
     if (loose[i] > some * loose.maxCoeff()) grip.loose.push_back(mechanism.dependents()[static_cast<std::size_t>(i)]);
   return grip;
+}
+
+NearestClosing nearestClosing(System<double>& system, std::vector<double> at,
+                              const std::function<void(const std::vector<double>&)>& place) {
+  constexpr int most = 100;
+  constexpr double first = 1e-3, farthest = 1e12, enough = 1e-14;  // of damping; of what a step gains
+  const auto m = static_cast<Eigen::Index>(at.size());
+  const auto rowsAt = [&](const std::vector<double>& positions) {
+    place(positions);
+    const std::vector<double> rows = system.residuals();
+    return Eigen::VectorXd(Eigen::VectorXd::Map(rows.data(), static_cast<Eigen::Index>(rows.size())));
+  };
+  Eigen::VectorXd rows = rowsAt(at);
+  double damping = first;
+  for (int i = 0; i < most && damping < farthest && rows.squaredNorm() > 0; ++i) {
+    const Eigen::MatrixXd jacobian = jacobianOfLoops(system).rightCols(m);
+    if (!jacobian.allFinite() || !rows.allFinite()) break;
+    const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    const Eigen::VectorXd gradient = jacobian.transpose() * rows;
+    bool isBetter = false;
+    for (; !isBetter && damping < farthest; damping *= isBetter ? 0.1 : 10) {
+      Eigen::MatrixXd damped = normal;
+      damped.diagonal().array() += damping * std::max(normal.diagonal().maxCoeff(), 0x1p-1000);
+      const Eigen::VectorXd step = damped.ldlt().solve(gradient);
+      std::vector<double> next = at;
+      for (Eigen::Index k = 0; k < m; ++k) next[static_cast<std::size_t>(k)] -= step[k];
+      const Eigen::VectorXd rest = rowsAt(next);
+      isBetter = rest.squaredNorm() < (1 - enough) * rows.squaredNorm();
+      if (!isBetter) continue;
+      at = std::move(next);
+      rows = rest;
+    }
+    place(at);
+  }
+  return {std::move(at), {rows.begin(), rows.end()}};
 }
 
 /// By elimination of the rows, loop by loop: what is open of later loops is what dependent coordinates of earlier ones

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,12 +26,26 @@ struct LoopGrip {
   std::vector<std::string> best;   ///< the coordinates of that choice; empty where no choice closes all rows
   double determinant;              ///< of J_d, likewise scaled
   std::vector<std::string> loose;  ///< dependent coordinates that move most where they hold least
+  double firmness = 0;             ///< of all speeds, least singular value over greatest: 0 where rows are dependent
 };
 
 /// By the least singular value of J_d, in units in which the greatest entry of each row is 1, and angles and
 /// displacements move rows alike. The best choice is that of a pivoted orthogonalisation of the columns of J that
 /// belong to coordinates.
 LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system);
+
+/// Where dependent coordinates open the loops least, from where they stand.
+struct NearestClosing {
+  std::vector<double> at;    ///< of the dependent coordinates, rad or m
+  std::vector<double> rows;  ///< g there
+};
+
+/// By Levenberg's and Marquardt's method; `place(at)` puts them there.
+NearestClosing nearestClosing(System<double>& system, std::vector<double> at,
+                              const std::function<void(const std::vector<double>&)>& place);
+
+/// The elements of loops whose rows, times some numbers, add up to nothing, where J has lost its rank, or nearly.
+std::vector<std::string> loopsAlike(const Mechanism& mechanism, System<double>& system);
 
 /// Of loops that name no dependent coordinates: those that stand last, but for such as move what rows still leave open
 /// by less than a tenth of what the firmest does at the present positions (elimination with threshold pivoting).

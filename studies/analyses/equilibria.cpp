@@ -15,6 +15,7 @@
 #include "scalars/evaluation/evaluate.hpp"
 #include "studies/analyses/found_positions.hpp"
 #include "studies/analysis.hpp"
+#include "studies/coordinate_region.hpp"
 #include "studies/running/context.hpp"
 #include "studies/settings.hpp"
 #include "studies/words.hpp"
@@ -28,6 +29,7 @@ std::vector<Field> fieldsOf(EquilibriaResult& e) {
   constexpr std::string_view position = "/equilibria/number", coordinate = "/equilibria/coordinate";
   return e.fieldsAnd(
       {{"coordinates", &e.coordinates, unit::none, "their names, with commas"},
+       fresh({"told", &e.units, unit::none, "units in which people are told of them, with commas; empty: rad, m"}),
        {"complete", &e.isComplete, unit::none, "whether these are all in the region, for every value in the intervals"},
        {"open", &e.open, unit::one, "parts of the region in which there may be others", allowed::count},
        {"coordinate", &e.coordinate, unit::one, "their numbers, from 1", {coordinate}},
@@ -66,6 +68,8 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
   std::string_view meaning() const override { return "all positions of rest in a region"; }
   void describe(Settings& s) override {
     NumberOf angle{"rad"}, displacement{"m"};
+    angle.written = &angleUnit_;
+    displacement.written = &displacementUnit_;
     angle.least = displacement.least = 0;
     angle.fault = displacement.fault = "is below 0";
     angle.expected = displacement.expected = "how far from the initial value";
@@ -104,8 +108,9 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
       region.push_back(hull(start - half, start + half));
       result.coordinate.push_back(static_cast<double>(i + 1));
     }
-    result.coordinates = fmt::format("{}", fmt::join(names, ", "));
     const std::size_t coordinates = region.size();
+    result.coordinates = fmt::format("{}", fmt::join(names, ", "));
+    result.units = unitsToldOf(run.study, coordinates, angleUnit_, displacementUnit_);
     region.insert(region.end(), equations.multipliers.begin(), equations.multipliers.end());
     RootSearch search;
     search.cancelled = run.watch.stop();
@@ -135,6 +140,7 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
 
  private:
   std::optional<double> angles_, displacements_;
+  std::string angleUnit_, displacementUnit_;
 };
 
 }  // namespace
@@ -145,14 +151,14 @@ std::vector<std::string> EquilibriaResult::told() const {
                  : fmt::format("{} in the region, others may be there", countText(number.size(), "position"))};
   for (std::size_t k = 0; k < number.size(); ++k) {
     const std::string line = stability[k] > 0 ? "stable:" : stability[k] < 0 ? "unstable:" : "of unknown stability:";
-    lines.push_back(line + boundsText(coordinates, lower, upper, k));
+    lines.push_back(line + boundsText(coordinates, units, lower, upper, k));
   }
   return lines;
 }
 
 void EquilibriaResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/equilibria", "positions of rest, proved", *this, fieldsOf));
-  groups.back().inJson = {{"lower", "*/0"}, {"upper", "*/1"}};
+  groups.back().inJson = {{"told", ""}, {"lower", "*/0"}, {"upper", "*/1"}};
   groups.back().makesSense = [this](std::size_t) { return areOrdered(lower, upper); };
 }
 

@@ -17,6 +17,7 @@ struct EquilibriaResult final : FurtherPart {
   enum class Stability : std::int64_t { unstable = -1, unknown = 0, stable = 1 };
 
   std::string coordinates;  ///< their names, with commas; their numbers are the columns of positions
+  std::string units;        ///< in which people are told of these, with commas; empty: rad, m
   std::vector<double> coordinate, number;
   Grid lower, upper;                    ///< position, coordinate; rad, m
   std::vector<std::int64_t> stability;  ///< of each position, as Stability

@@ -30,6 +30,7 @@ std::vector<Field> fieldsOf(PosturesResult& p) {
   return p.fieldsAnd(
       {{"goal", &p.goal, unit::none, "which frame is where; empty where loops alone say it"},
        {"coordinates", &p.coordinates, unit::none, "their names, with commas"},
+       fresh({"told", &p.units, unit::none, "units in which people are told of them, with commas; empty: rad, m"}),
        {"complete", &p.isComplete, unit::none, "whether these are all in the region, for every value in the intervals"},
        {"open", &p.open, unit::one, "parts of the region in which there may be others", allowed::count},
        {"coordinate", &p.coordinate, unit::one, "their numbers, from 1", {coordinate}},
@@ -208,6 +209,7 @@ class PosturesAnalysis final : public AnalysisOf<PosturesAnalysis, PosturesResul
 
     if (goal()) result.goal = fmt::format("{} at {}", frame_, goal_);
     result.coordinates = fmt::format("{}", fmt::join(equations.coordinates, ", "));
+    result.units = region_.units(run.study, equations.coordinates.size());
     for (std::size_t i = 0; i < equations.coordinates.size(); ++i)
       result.coordinate.push_back(static_cast<double>(i + 1));
     result.open = static_cast<std::int64_t>(found.undecided.size());
@@ -284,14 +286,14 @@ std::vector<std::string> PosturesResult::told() const {
   for (std::size_t k = 0; k < number.size(); ++k) {
     const std::string line =
         always[k] != 0 ? fmt::format("{}:", number[k]) : fmt::format("{}, for some values:", number[k]);
-    lines.push_back(line + boundsText(coordinates, lower, upper, k));
+    lines.push_back(line + boundsText(coordinates, units, lower, upper, k));
   }
   return lines;
 }
 
 void PosturesResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/postures", "postures, proved", *this, fieldsOf));
-  groups.back().inJson = {{"lower", "*/0"}, {"upper", "*/1"}};
+  groups.back().inJson = {{"told", ""}, {"lower", "*/0"}, {"upper", "*/1"}};
   groups.back().makesSense = [this](std::size_t) { return areOrdered(lower, upper); };
 }
 

@@ -15,6 +15,7 @@ namespace gamut {
 struct PosturesResult final : FurtherPart {
   std::string goal;         ///< "tool at target"; empty: loops alone
   std::string coordinates;  ///< their names, with commas; their numbers are the columns of postures
+  std::string units;        ///< in which people are told of these, with commas; empty: rad, m
   std::vector<double> coordinate, number;
   Grid lower, upper;                 ///< posture, coordinate; rad, m; angles near their initial values
   std::vector<std::int64_t> always;  ///< of each posture: 1 there for all values, 0 for some, or in the region for some

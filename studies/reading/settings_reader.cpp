@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/description/written_units.hpp"
 #include "studies/settings.hpp"
 
 namespace gamut {
@@ -30,6 +31,7 @@ class SettingsReader final : public Settings {
     const double stated = of.scale * nearest(source_.asAmount(*node, name, dimensionOf(of.unit)));
     if (!of.allows(stated)) source_.fail(*node, fmt::format("{} {}", name, of.fault), of.expected);
     value = stated;
+    if (of.written != nullptr) *of.written = unitOf(*node);
   }
 
   void integer(const Key& key, std::int64_t least, std::int64_t most, bool allowsAuto, std::int64_t& value) override {
@@ -71,8 +73,9 @@ class SettingsReader final : public Settings {
       const std::string own = fmt::format("{}.{}", name, word.str());
       const toml::array& pair = source_.asArray(entry, own);
       if (pair.size() != 2) source_.fail(entry, fmt::format("{} has {} entries", own, pair.size()), "[lower, upper]");
-      ranges[std::string(word.str())] = {source_.asAnyAmount(*pair.get(0), own),
-                                         source_.asAnyAmount(*pair.get(1), own)};
+      const std::string unit = unitOf(*pair.get(0));
+      ranges[std::string(word.str())] = {source_.asAnyAmount(*pair.get(0), own), source_.asAnyAmount(*pair.get(1), own),
+                                         unit.empty() ? unitOf(*pair.get(1)) : unit};
     }
   }
 
@@ -86,6 +89,9 @@ class SettingsReader final : public Settings {
   }
 
  private:
+  static std::string unitOf(const toml::node& node) {
+    return node.is_string() ? unitBehindNumber(node.as_string()->get()) : std::string();
+  }
   static bool isAuto(const toml::node& node) { return node.is_string() && node.as_string()->get() == "auto"; }
 
   const toml::node* find(const Key& key) const {

@@ -60,7 +60,7 @@ class StudyReader {
     std::ranges::move(read.notes, std::back_inserter(study_.notes));
     std::ranges::move(notesOnFrequencies(source_, study_.mechanism), std::back_inserter(study_.notes));
     places_ = std::move(read.places);
-    noteUnitsOfMasses();
+    noteUnits();
     checkMotion(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::equilibria) study_.mechanism.measureModes();
@@ -237,16 +237,16 @@ class StudyReader {
   }
 
   /// That of the number, or of the parameter that stands for it.
-  void noteUnitsOfMasses() {
+  void noteUnits() {
     const auto textAt = [&](const std::string& name) -> std::string {
       const auto place = places_.find(name);
       return place != places_.end() && place->second->is_string() ? **place->second->as_string() : std::string();
     };
-    for (const Described& element : study_.mechanism.elements()) {
-      const std::string mass = textAt(element.name() + ".mass");
-      std::string unit = unitBehindNumber(mass);
-      if (unit.empty()) unit = unitBehindNumber(textAt(mass));
-      if (!unit.empty()) study_.unitsOfMasses[element.name()] = unit;
+    for (const auto& [name, place] : places_) {
+      const std::string number = textAt(name);
+      std::string unit = unitBehindNumber(number);
+      if (unit.empty()) unit = unitBehindNumber(textAt(number));
+      if (!unit.empty()) study_.units[name] = unit;
     }
   }
 

@@ -24,10 +24,10 @@ void describeParts(const Study& study, const Skeleton& skeleton, PictureResult& 
   for (const Skeleton::Point& point : skeleton.points)
     machine.points.push_back({printable(point.name), point.isFixed, point.isGround});
   for (const Skeleton::Part& part : skeleton.parts) {
-    const auto told = study.unitsOfMasses.find(part.name);
+    const auto told = study.units.find(part.name + ".mass");
     machine.parts.push_back({printable(part.name), printable(part.type), static_cast<PartKind>(part.kind), part.from,
                              part.to, part.turns, part.slides, nominal(part.mass),
-                             told == study.unitsOfMasses.end() ? std::string() : told->second, nominal(part.radius)});
+                             told == study.units.end() ? std::string() : told->second, nominal(part.radius)});
   }
   for (const Skeleton::JointAxis& axis : skeleton.axes) machine.axes.push_back({printable(axis.name), axis.part});
 }

@@ -1,8 +1,10 @@
 // Studies of machines that close on themselves: enclosures against trajectories of the same machine by hand in 128
 // bits, and what is refused.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -330,6 +332,66 @@ TEST(ClosedLoopStudy, SaysThatItsRowsDependOnEachOther) {
   std::string flat = replaced(fourBarText("1", "", "", "angle = -3.1"), "d = \"0.9 m\"", "d = \"1.1 m\"");
   flat = replaced(replaced(flat, "angle = 1, rate = 4", "angle = \"180 deg\", rate = 4"), "angle = 1.6", "angle = 3.1");
   EXPECT_THAT(refusalOf(flat), HasSubstr("the loop 'C' starts where its rows depend on each other"));
+}
+
+/// A ground of 3.9 m: the crank's end is √(3.738…² + 0.252…²) m from the other hinge, which 0.8 m and 0.6 m do not
+/// span.
+TEST(ClosedLoopStudy, SaysByHowMuchALoopStaysOpen) {
+  const double gap = std::hypot(3.9 - 0.3 * std::cos(1.0), 0.3 * std::sin(1.0)) - 1.4;
+  const auto told = [](double value) { return fmt::format("{:.4g}", value); };
+  const std::string far = replaced(fourBarText("1", ""), "d = \"0.9 m\"", "d = \"3.9 m\"");
+  EXPECT_THAT(refusalOf(far), HasSubstr("near their initial values: 'C' was found to stay open by " + told(gap) +
+                                        " m at least, at B.angle = "));
+  const std::string small = replaced(replaced(far, "a = \"0.3 m\", b = \"0.8 m\", c = \"0.6 m\", d = \"3.9 m\"",
+                                              "a = \"300 mm\", b = \"800 mm\", c = \"600 mm\", d = \"3900 mm\""),
+                                     "angle = 1.6", "angle = \"90 deg\"");
+  // In line with what is between both hinges.
+  const double line = std::atan2(-0.3 * std::sin(1.0), 3.9 - 0.3 * std::cos(1.0)) * 180 / 3.14159265358979;
+  EXPECT_THAT(refusalOf(small), HasSubstr("stay open by " + told(1000 * gap) + " mm at least, at B.angle = "));
+  EXPECT_THAT(refusalOf(small), HasSubstr(" deg, D.angle = " + told(180 + line) + " deg; expected numbers that fit"));
+}
+
+/// What starts in line with itself is no least.
+TEST(ClosedLoopStudy, SaysByHowMuchALoopStaysOpenThatStartsInLine) {
+  std::string line = replaced(fourBarText("1", "", "", "angle = 0"), "d = \"0.9 m\"", "d = \"3.9 m\"");
+  line = replaced(replaced(line, "angle = 1, rate = 4", "angle = 0, rate = 4"), "angle = 1.6", "angle = 0");
+  EXPECT_THAT(refusalOf(line), HasSubstr("stay open by 2.2 m at least, at B.angle = "));
+}
+
+/// Two rods between the same points.
+TEST(ClosedLoopStudy, NamesBothLoopsThatHoldTheSame) {
+  const auto closure = [](const std::string& name, const std::string& by) {
+    return "[[mechanism.element]]\ntype = \"closure\"\nname = \"" + name +
+           "\"\nas = \"pin\"\nfrom = \"C2\"\nto = \"C1\"\n" + by;
+  };
+  const std::string twice = replaced(fourBarText("1", ""), "[[output]]", closure("E", "") + "[[output]]");
+  EXPECT_THAT(refusalOf(twice),
+              HasSubstr("the loop 'E' is closed by 2 coordinates, but between its frames 1 may follow "
+                        "from others, while B.angle, D.angle close 'C'; expected one loop alone"));
+  const auto rod = [](const std::string& name, const std::string& by) {
+    return "[[mechanism.element]]\ntype = \"rod\"\nname = \"" + name +
+           "\"\nfrom = \"PB\"\nto = \"C2\"\nlength = \"b\"\ndependent = [\"" + by + "\"]\n";
+  };
+  std::string rods = fourBarText("1", "");
+  const std::size_t coupler = rods.find("[[mechanism.element]]\ntype = \"revolute\"\nname = \"B\""),
+                    ground = rods.find("[[mechanism.element]]\ntype = \"link\"\nname = \"ground\"");
+  rods.erase(coupler, ground - coupler);
+  const std::size_t pin = rods.find("[[mechanism.element]]\ntype = \"closure\""), outputs = rods.find("[[output]]");
+  rods.replace(pin, outputs - pin, rod("one", "D") + rod("other", "A"));
+  rods = replaced(replaced(rods, "C1.position.x", "C2.position.x"), "angle = 1, rate = 4", "angle = 1");
+  EXPECT_THAT(refusalOf(rods),
+              HasSubstr("the loops 'one', 'other' start where rows of one and the other say the same"));
+}
+
+/// In the units in which numbers are stated, a few digits.
+TEST(ClosedLoopStudy, SaysForWhichNumbersALoopIsNotProvedToClose) {
+  const std::string text =
+      replaced(fourBarText("1", uncertain({"c", "d"}, "± 45 %")), "d = \"0.9 m\"", "d = \"900 mm\"");
+  const std::string refusal = refusalOf(text);
+  EXPECT_THAT(refusal, ::testing::ContainsRegex("not proved to close for 'c' in \\[[0-9.]+, [0-9.]+\\] m, "
+                                                "'d' in \\[[0-9.]+, [0-9.]+\\] mm; expected"));
+  EXPECT_THAT(refusal,
+              ::testing::Not(::testing::ContainsRegex("[0-9.][0-9.][0-9.][0-9.][0-9.][0-9.][0-9.][0-9.][0-9.][0-9.]")));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -420,6 +421,26 @@ TEST(Postures, AreRefusedWithTheKeyInPlace) {
                                       link("goal", "inertial", "target", "1, 0, 0")),
               HasSubstr("how far 'S.displacement' is looked at is not said; expected postures.ranges, or "
                         "postures.displacements"));
+}
+
+/// In the unit of the range, else in that of the initial value, and outward.
+TEST(Postures, AreToldInTheUnitsOfTheStudy) {
+  const std::string mechanism = planar("0.6 m", "0.3 m", "0.5 rad", "± 1 %");
+  const auto told = [&](const std::string& ranges) {
+    return runOf(studyOf(atTarget + ranges, mechanism)).of<PosturesResult>();
+  };
+  const PosturesResult degrees = told("ranges = { A = [\"-170 deg\", \"170 deg\"] }\n");
+  EXPECT_EQ(degrees.units, "deg, rad, rad");
+  ASSERT_GT(degrees.number.size(), 0U);
+  const std::string line = degrees.told()[1];
+  double lower = 0, upper = 0;
+  ASSERT_EQ(std::sscanf(line.c_str() + line.find("A.angle"), "A.angle in [%lf, %lf] deg, B.angle", &lower, &upper), 2)
+      << line;
+  const Number perDegree = acos(Number(-1)) / 180;
+  EXPECT_LE(lower * perDegree, degrees.lower(0, 0));
+  EXPECT_GE(upper * perDegree, degrees.upper(0, 0));
+  EXPECT_LT(upper - lower, 1.001 * (degrees.upper(0, 0) - degrees.lower(0, 0)) * 180 / 3.14159);
+  EXPECT_EQ(told("angles = \"170 deg\"\n").units, "deg, deg, deg");
 }
 
 }  // namespace

@@ -208,6 +208,7 @@ inline Results sampleResults() {
   equilibria.why = "1 part of the region is not settled";
   equilibria.cpu = 0.0625;
   equilibria.coordinates = "hinge.angle, slide.displacement";
+  equilibria.units = "deg, mm";
   equilibria.coordinate = {1, 2};
   equilibria.number = {1, 2, 3};
   equilibria.lower = Grid({3, 2}, {-1, 0, 0, 0.5, 1, 0.25});
@@ -220,6 +221,7 @@ inline Results sampleResults() {
   postures.cpu = 0.125;
   postures.goal = "tool at target";
   postures.coordinates = "hinge.angle, slide.displacement";
+  postures.units = "rad, m";
   postures.coordinate = {1, 2};
   postures.number = {1, 2};
   postures.lower = Grid({2, 2}, {-1, 0, 0, 0.5});
