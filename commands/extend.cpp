@@ -11,6 +11,7 @@
 #include "commands/files.hpp"
 #include "commands/interrupts.hpp"
 #include "commands/options.hpp"
+#include "commands/preparation.hpp"
 #include "commands/progress.hpp"
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
@@ -53,7 +54,7 @@ void noteChanges(const ExtendArguments& arguments, const Results& before, const 
 
 ExitCode extend(const ExtendArguments& arguments) {
   const Results before = readResults(arguments.input);
-  const Machine machine(studyOf(before, arguments.input));
+  const Machine machine = prepared(studyOf(before, arguments.input), arguments.quiet, arguments.timeLimit);
   RunOptions options = runOptions(arguments);
   options.samples = arguments.samples;
   checkMemory(machine.study, options);

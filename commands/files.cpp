@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "commands/options.hpp"
+#include "commands/preparation.hpp"
 #include "commands/standard_streams.hpp"
 
 namespace gamut {
@@ -23,11 +24,11 @@ StudyText readStudyFile(const std::string& path) {
   }
 }
 
-Machine readMachine(const std::string& path, bool isQuiet) {
+Machine readMachine(const std::string& path, bool isQuiet, std::optional<double> timeLimit) {
   const auto [text, name] = readStudyFile(path);
-  Machine machine(readStudyText(text, name));
-  if (!isQuiet)
-    for (const std::string& note : machine.study.notes) fmt::print(stderr, "{}\n", note);
+  Machine machine = prepared(readStudyText(text, name), isQuiet, timeLimit);
+  if (isQuiet) return machine;
+  for (const std::string& note : machine.study.notes) fmt::print(stderr, "{}\n", note);
   return machine;
 }
 

@@ -1,6 +1,7 @@
 // The files that commands read and write.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "studies/atomic_file.hpp"
@@ -18,8 +19,9 @@ struct StudyText {
 StudyText readStudyFile(const std::string& path);
 
 /// The machine of a study, likewise; says on standard error, unless `isQuiet`, what may be a mistake in the study.
+/// `timeLimit`: as of prepared().
 /// Throws StudyError.
-Machine readMachine(const std::string& path, bool isQuiet);
+Machine readMachine(const std::string& path, bool isQuiet, std::optional<double> timeLimit = {});
 
 /// The study that results from `path` are of, with the files that it names, as they hold them. Throws StudyError, or
 /// UsageError if they make no sense.

@@ -43,7 +43,7 @@ void nameOutputs(RunCommandArguments& arguments) {
 }
 
 ExitCode run(RunCommandArguments arguments) {
-  const Machine machine = readMachine(arguments.study, arguments.quiet);
+  const Machine machine = readMachine(arguments.study, arguments.quiet, arguments.timeLimit);
   nameOutputs(arguments);
   RunOptions options = runOptions(arguments);
   options.seed = arguments.seed;

@@ -98,7 +98,7 @@ std::string json(const Study& study, const AllowedDeviations& found) {
 }
 
 ExitCode tolerance(const ToleranceArguments& arguments) {
-  const Machine machine = readMachine(arguments.study, arguments.quiet);
+  const Machine machine = readMachine(arguments.study, arguments.quiet, arguments.timeLimit);
   const Study& study = machine.study;
   ToleranceOptions options;
   options.jobs = arguments.jobs;

@@ -195,13 +195,16 @@ void takeNumbers(Machine& machine) {
 
 /// Proofs that do not succeed within so much CPU time are given up: where a loop comes to a dead point they would go on
 /// for hours.
-std::function<bool()> withinAMinute() {
-  return [start = processCpuSeconds()] { return processCpuSeconds() - start < 60; };
+std::function<bool(double)> withinAMinute(const Machine::Progress& progress, const std::string& task) {
+  return [&progress, task, start = processCpuSeconds()](double done) {
+    if (progress) progress(task, done);
+    return processCpuSeconds() - start < 60;
+  };
 }
 
 /// Before anything is recorded: polynomials of the free parameters that come near to where loops close, unless that
 /// they do is proved only with Newton's steps from the nominal position. What is left open, where it is proved.
-Box approachLoops(Machine& machine) {
+Box approachLoops(Machine& machine, const Machine::Progress& progress) {
   constexpr std::size_t few = 6;  // rows: Newton's steps lose little, and come nearer for wide tolerances
   if (machine.rest || machine.study.mechanism.dependents().size() <= few || machine.freeParameters.empty()) return {};
   Mechanism& mechanism = machine.study.mechanism;
@@ -210,9 +213,9 @@ Box approachLoops(Machine& machine) {
   try {
     const Program step = recordApproach(mechanism, names);
     mechanism.closeNear(names, std::make_shared<const Program>(approached(step, parameters)));
-    Box open =
-        proveRoots(recordClosing(mechanism, names), parameters, static_cast<int>(names.size()), 1e-9, withinAMinute())
-            .remainder;
+    Box open = proveRoots(recordClosing(mechanism, names), parameters, static_cast<int>(names.size()), 1e-9,
+                          withinAMinute(progress, "loops"))
+                   .remainder;
     if (open.empty()) mechanism.closeNear({}, nullptr);
     return open;
   } catch (...) {
@@ -246,7 +249,7 @@ struct ClosedBox {
 
 /// For all values of the box: loops are proved to close, or position and modes of rest to exist. `known`: what the
 /// first family leaves open, where that is known already.
-ClosedBox closedBox(const Machine& machine, Box other, const Box& known = {}) {
+ClosedBox closedBox(const Machine& machine, Box other, const Box& known = {}, const Machine::Progress& progress = {}) {
   ClosedBox closed{std::move(other), nullptr};
   Box parameters = parametersIn(machine, closed.box), open;
   const Box own = parameters;
@@ -256,7 +259,8 @@ ClosedBox closedBox(const Machine& machine, Box other, const Box& known = {}) {
     const RootFamily family = isFirst && !known.empty()
                                   ? RootFamily{known, {}, {}}
                                   : proveRoots(newton, parameters, static_cast<int>(machine.freeParameters.size()),
-                                               isFirst || !machine.rest ? 1e-9 : 1.0, withinAMinute());
+                                               isFirst || !machine.rest ? 1e-9 : 1.0,
+                                               withinAMinute(progress, machine.rest ? "rest" : "loops"));
     if (family.remainder.empty()) {
       if (machine.rest) refuseUnprovedRest(machine.study, machine.freeParameters, *family.open, isFirst);
       refuseOpenLoops(machine.study, machine.freeParameters, *family.open);
@@ -266,6 +270,7 @@ ClosedBox closedBox(const Machine& machine, Box other, const Box& known = {}) {
     if (isFirst) parameters.insert(parameters.end(), open.begin(), open.end());
   }
   if (!machine.rest || !machine.rest->vibration()) return closed;
+  if (progress) progress("modes", 0);
   const RestVibration& vibration = *machine.rest->vibration();
   const auto openAt = [open, newton = machine.closing.front()](const Box& thin) {
     constexpr double enough = 1e-7;
@@ -291,7 +296,7 @@ ClosedBox closedBox(const Machine& machine, Box other, const Box& known = {}) {
 /// Dependent coordinates, and rates that depend on others, start at what is left between Newton's steps and the closed
 /// loops, for all values of the box; at rest all numbers are of this kind. `open`: what that is, where it is known
 /// already.
-void closeFamilies(Machine& machine, const Box& open) {
+void closeFamilies(Machine& machine, const Box& open, const Machine::Progress& progress) {
   const Mechanism& mechanism = machine.study.mechanism;
   if (machine.rest) {
     machine.closing = machine.rest->families();
@@ -308,7 +313,7 @@ void closeFamilies(Machine& machine, const Box& open) {
     for (const std::string& dependent : dependents)
       machine.remainders.push_back(static_cast<int>(std::ranges::find(names, dependent) - names.begin()));
   }
-  ClosedBox closed = closedBox(machine, std::move(machine.box), open);
+  ClosedBox closed = closedBox(machine, std::move(machine.box), open, progress);
   machine.box = std::move(closed.box);
   machine.vibrations = std::move(closed.vibrations);
   for (const int slot : machine.remainders) machine.motion.nominal[slot] = midpoint(machine.box[slot]);
@@ -381,14 +386,15 @@ Motion recordedMotion(const Study& study, const Rest* rest) {
   return motion;
 }
 
-Machine::Machine(Study of) : study(std::move(of)), freeParameters(freeParametersOf(study)) {
+Machine::Machine(Study of, const Progress& progress) : study(std::move(of)), freeParameters(freeParametersOf(study)) {
   const double start = processCpuSeconds();
+  if (progress) progress("equations", 0);
   rest = restOf(study);
   takeNumbers(*this);
-  const Box open = approachLoops(*this);
+  const Box open = approachLoops(*this, progress);
   motion.motion = recordedMotion(study, rest.get());
   if (rest) plain = recordedOutputs(study, rest.get(), true);
-  closeFamilies(*this, open);
+  closeFamilies(*this, open, progress);
   cpu = processCpuSeconds() - start;
   takeCourses(*this);
   takeLevels(*this);

@@ -34,8 +34,10 @@ struct ConstantQuantity {
 struct Machine {
   /// Records the study's mechanism. Throws StudyError, with the place in its file, for a mechanism whose motion is not
   /// determined, or something of which has no value or finds no room: the equations of n joints in a chain take some
-  /// 1100 n² bytes.
-  explicit Machine(Study of);
+  /// 1100 n² bytes. `progress`: told from this thread what is done, "loops" as they are proved to close, and which
+  /// share of it.
+  using Progress = std::function<void(const std::string& task, double fraction)>;
+  explicit Machine(Study of, const Progress& progress = {});
 
   Study study;
   double cpu = 0;  ///< s, that recording took

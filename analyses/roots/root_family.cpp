@@ -37,7 +37,7 @@ double largestOf(const Box& box) {
 class Prover {
  public:
   Prover(const Program& newton, const Box& parameters, int quantities, double enough,
-         const std::function<bool()>& goesOn)
+         const std::function<bool(double)>& goesOn)
       : newton_(newton),
         slopes_(forwardDifferentiated(newton)),
         whole_(parameters),
@@ -57,6 +57,7 @@ class Prover {
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
       parts_.clear();
+      done_ = 0;
       if (std::optional<Box> open = proveParts()) return {{}, {}, std::move(open)};
       refine();
       const RootFamily family = together();
@@ -83,6 +84,7 @@ class Prover {
       const Box part = std::move(open.back());
       open.pop_back();
       if (std::optional<Part> proved = prove(part)) {
+        done_ += shareOf(part);
         parts_.push_back(std::move(*proved));
         continue;
       }
@@ -127,6 +129,14 @@ class Prover {
     return both;
   }
 
+  /// Of the whole box.
+  double shareOf(const Box& part) const {
+    double share = 1;
+    for (int i = 0; i < quantities_; ++i)
+      if (!isThin(whole_[i])) share *= width(part[i]) / width(whole_[i]);
+    return share;
+  }
+
   /// Of what is wide, as a part of what it was.
   int widestOf(const Box& part) const {
     int widest = -1;
@@ -141,7 +151,7 @@ class Prover {
     return widest;
   }
 
-  bool isOver() const { return goesOn_ && !goesOn_(); }
+  bool isOver() const { return goesOn_ && !goesOn_(done_); }
 
   static Box joined(Box delta, const Box& part) {
     delta.insert(delta.end(), part.begin(), part.end());
@@ -231,17 +241,18 @@ class Prover {
   Program slopes_;
   Box whole_;
   double enough_;
-  const std::function<bool()>& goesOn_;
+  const std::function<bool(double)>& goesOn_;
   int n_, quantities_;
   std::vector<int> narrow_, all_;  // what carries no symbol: parameters that are none, δ too
   std::vector<double> radii_;      // of the box about 0, the widest so far
   std::vector<Part> parts_;
+  double done_ = 0;  // share of the box that is proved
 };
 
 }  // namespace
 
 RootFamily proveRoots(const Program& newton, const Box& parameters, int quantities, double enough,
-                      const std::function<bool()>& goesOn) {
+                      const std::function<bool(double)>& goesOn) {
   return Prover(newton, parameters, quantities, enough, goesOn).prove();
 }
 

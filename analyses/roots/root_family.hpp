@@ -22,9 +22,10 @@ struct RootFamily {
 
 /// `newton`: φ, whose n states are δ and whose n outputs its image, with the parameters p. Of these the first
 /// `quantities` (-1: all) are; others are narrow, as remainders of other roots are. Parts of the box are tried until
-/// δ is at most `enough`, while that costs little. What is not proved when `goesOn` ends it stays open.
+/// δ is at most `enough`, while that costs little. `goesOn` is told which share of the box is proved, often, and ends
+/// it by false: what is not proved then stays open.
 RootFamily proveRoots(const Program& newton, const Box& parameters, int quantities = -1, double enough = 1e-9,
-                      const std::function<bool()>& goesOn = {});
+                      const std::function<bool(double done)>& goesOn = {});
 
 /// c(p): polynomials near to what Newton's steps, a program of parameters, come to. These steps follow where a root
 /// goes, but each lets errors of polynomials grow that bound it.

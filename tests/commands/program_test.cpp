@@ -11,6 +11,7 @@
 #include "commands/table.hpp"
 #include "studies/results/results_file.hpp"
 #include "tests/commands/program.hpp"
+#include "tests/studies/four_bar_text.hpp"
 #include "tests/studies/sample_results.hpp"
 #include "tests/studies/sample_study.hpp"
 
@@ -353,6 +354,16 @@ TEST_F(Program, CheckFindsASampleOutsideItsEnclosureInTheStoredNumbers) {
   writeResults(results, folder_.path("r.h5"));
   const Outcome run = gamut("check r.h5");
   EXPECT_EQ(run.exitCode, 1) << run.out;
+}
+
+/// Of wide tolerances of a linkage a proof takes seconds of CPU, before there is anything to write.
+TEST_F(Program, EndsAtATimeLimitBeforeAStudyCanRun) {
+  folder_.write("s.toml", testing::fourBarText("1", testing::uncertain({"a", "b", "c", "d"}, "± 45 %")));
+  const Outcome run = gamut("run s.toml --time-limit 1");
+  EXPECT_EQ(run.exitCode, 3) << run.error;
+  EXPECT_THAT(run.error, HasSubstr("gamut: the time limit of 1.00 s of CPU was reached before the study could run (at "
+                                   "work on: loops, "));
+  for (const char* file : {"s.h5", "s.html"}) EXPECT_FALSE(std::filesystem::exists(folder_.path(file))) << file;
 }
 
 TEST_F(Program, CheckTellsAnIncompleteRunApart) {
