@@ -11,6 +11,7 @@
 #include "commands/options.hpp"
 #include "commands/preparation.hpp"
 #include "commands/standard_streams.hpp"
+#include "studies/running/dead_point.hpp"
 
 namespace gamut {
 
@@ -29,6 +30,7 @@ Machine readMachine(const std::string& path, bool isQuiet, std::optional<double>
   Machine machine = prepared(readStudyText(text, name), isQuiet, timeLimit);
   if (isQuiet) return machine;
   for (const std::string& note : machine.study.notes) fmt::print(stderr, "{}\n", note);
+  if (const std::string note = noteOfDeadPoint(machine.study); !note.empty()) fmt::print(stderr, "{}\n", note);
   return machine;
 }
 

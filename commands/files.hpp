@@ -18,8 +18,8 @@ struct StudyText {
 /// Of a file, or of standard input if the path is "-". Throws StudyError.
 StudyText readStudyFile(const std::string& path);
 
-/// The machine of a study, likewise; says on standard error, unless `isQuiet`, what may be a mistake in the study.
-/// `timeLimit`: as of prepared().
+/// The machine of a study, likewise; says on standard error, unless `isQuiet`, what may be a mistake in the study,
+/// and of a dead point of its loops that is ahead. `timeLimit`: as of prepared().
 /// Throws StudyError.
 Machine readMachine(const std::string& path, bool isQuiet, std::optional<double> timeLimit = {});
 

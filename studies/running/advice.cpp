@@ -149,7 +149,7 @@ std::optional<DeadPoint> deadPointAhead(const Run& run, const Enclosure& enclosu
   constexpr double near = 0.3, about = 1.01;  // of its time
   if (enclosure.cause.isStop()) return std::nullopt;
   std::optional<DeadPoint> dead = deadPointOf(run.study);
-  if (dead && (enclosure.reached < near * dead->time || enclosure.reached > about * dead->time)) dead.reset();
+  if (dead && (enclosure.reached < near * dead->from || enclosure.reached > about * dead->to)) dead.reset();
   return dead;
 }
 

@@ -366,6 +366,20 @@ TEST_F(Program, EndsAtATimeLimitBeforeAStudyCanRun) {
   for (const char* file : {"s.h5", "s.html"}) EXPECT_FALSE(std::filesystem::exists(folder_.path(file))) << file;
 }
 
+/// A kite's linkage folds flat.
+TEST_F(Program, NotesWhereAMotionComesToBeforeItRuns) {
+  std::string kite = testing::fourBarText("2", "");
+  const std::string lengths = "a = \"0.3 m\", b = \"0.8 m\", c = \"0.6 m\", d = \"0.9 m\"";
+  folder_.write("turning.toml", kite);
+  kite.replace(kite.find(lengths), lengths.size(), "a = \"0.3 m\", b = \"0.3 m\", c = \"0.8 m\", d = \"0.8 m\"");
+  folder_.write("kite.toml", kite);
+  const Outcome run = gamut("validate kite.toml");
+  EXPECT_EQ(run.exitCode, 0) << run.error;
+  EXPECT_THAT(run.error, HasSubstr(": note: the nominal motion comes between 0.5535"));
+  EXPECT_EQ(gamut("validate kite.toml --quiet").error, "");
+  EXPECT_EQ(gamut("validate turning.toml").error, "");
+}
+
 TEST_F(Program, CheckTellsAnIncompleteRunApart) {
   Results results = sampleResults();
   results.comparison.disputed.clear();

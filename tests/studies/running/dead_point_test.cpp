@@ -32,31 +32,28 @@ std::string byRocker(const std::string& uncertain) {
                   "initial = { angle = " + std::to_string(angle) + ", rate = " + std::to_string(at.rocker) + " }");
 }
 
-/// The first time at which the rocker turns, of so many parts of a second.
-double turnByHand() {
-  std::vector<double> times;
-  for (int i = 1; i <= 1024; ++i) times.push_back(i / 1024.0);
+/// The rate of the rocker at these times.
+std::vector<double> rockerByHand(const std::vector<double>& times) {
   const std::array<Precise, 4> lengths{Precise("0.3"), Precise("0.8"), Precise("0.6"), Precise("0.9")};
   testing::Reference reference(testing::byHand());
   const std::vector<testing::Vector> truth = reference({1, 4, lengths[0], lengths[1], lengths[2], lengths[3]}, times);
-  double before = 0;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const double rate =
-        static_cast<double>(testing::fourBarByHand<Precise>(truth[i][0], truth[i][1], lengths, [](const char* n) {
-                              return Precise(n);
-                            }).rocker);
-    if (rate * before < 0) return times[i];
-    before = rate;
-  }
-  return 0;
+  std::vector<double> rates;
+  for (const testing::Vector& state : truth)
+    rates.push_back(static_cast<double>(
+        testing::fourBarByHand<Precise>(state[0], state[1], lengths, [](const char* n) { return Precise(n); }).rocker));
+  return rates;
 }
 
 TEST(DeadPoint, IsFoundWhereTheRockerTurns) {
   const auto dead = deadPointOf(readStudyText(byRocker(""), "s.toml"));
   ASSERT_TRUE(dead);
-  const double turn = turnByHand();
-  ASSERT_GT(turn, 0.05);
-  EXPECT_NEAR(dead->time, turn, 0.003);
+  EXPECT_LT(dead->to - dead->from, 1e-4);
+  std::vector<double> times;
+  for (int i = 1; i <= 1024; ++i) times.push_back(dead->from * i / 1024.0);
+  times.push_back(dead->to);
+  const std::vector<double> rates = rockerByHand(times);
+  for (std::size_t i = 0; i + 1 < rates.size(); ++i) EXPECT_GT(rates[i] * rates.front(), 0) << times[i];
+  EXPECT_LT(rates.back() * rates.front(), 0);
   EXPECT_EQ(dead->coordinates, (std::vector<std::string>{"A.angle", "B.angle"}));
   EXPECT_EQ(dead->others.size(), 2U);
   EXPECT_FALSE(dead->isDriven);
@@ -70,8 +67,40 @@ TEST(DeadPoint, IsToldWhereARunEnds) {
   const std::string text = replaced(byRocker(uncertain({"a"}, "± 0.1 %")), ", \"stochastic\"", "");
   const Results results = run(readStudyText(text, "s.toml"), {});
   EXPECT_LT(results.interval.reached, 1);
-  EXPECT_THAT(results.interval.why, HasSubstr("the nominal motion comes to a dead point of A.angle, B.angle at about"));
+  EXPECT_THAT(results.interval.why, HasSubstr("the nominal motion comes to a dead point of A.angle, B.angle between"));
   EXPECT_THAT(results.interval.advice, HasSubstr("mechanism.loops = \"multipliers\", or dependent = ["));
+}
+
+/// Said before it runs, in the place of the loop.
+TEST(DeadPoint, IsNotedAhead) {
+  const std::string note = noteOfDeadPoint(readStudyText(byRocker(""), "s.toml"));
+  EXPECT_THAT(note,
+              ::testing::MatchesRegex("s.toml:[0-9]+:[0-9]+: note: the nominal motion comes to a dead point of "
+                                      "A.angle, B.angle between 0\\.[0-9]+ s and 0\\.[0-9]+ s, where they follow "
+                                      "from no others; what helps: mechanism.loops = \"multipliers\", or dependent "
+                                      "= .*, which are firm there"));
+  EXPECT_EQ(noteOfDeadPoint(readStudyText(fourBarText("2", ""), "s.toml")), "");
+  const std::string before = replaced(replaced(byRocker(""), "horizon = 1\n", "horizon = 0.05\n"), "output_step = 1\n",
+                                      "output_step = 0.05\n");
+  EXPECT_EQ(noteOfDeadPoint(readStudyText(before, "s.toml")), "");
+  const std::string passed = replaced(byRocker(""), "[mechanism]", "[mechanism]\nloops = \"multipliers\"");
+  EXPECT_EQ(noteOfDeadPoint(readStudyText(passed, "s.toml")), "");
+}
+
+/// Parallel cranks, and a kite, fold flat.
+TEST(DeadPoint, IsPassedByNothingWhereALoopLiesInLine) {
+  for (const char* lengths : {"a = \"0.6 m\", b = \"0.9 m\", c = \"0.6 m\", d = \"0.9 m\"",
+                              "a = \"0.3 m\", b = \"0.3 m\", c = \"0.8 m\", d = \"0.8 m\""}) {
+    const std::string text =
+        replaced(fourBarText("2", ""), "a = \"0.3 m\", b = \"0.8 m\", c = \"0.6 m\", d = \"0.9 m\"", lengths);
+    for (const std::string& each : {text, replaced(text, "[mechanism]", "[mechanism]\nloops = \"multipliers\"")}) {
+      const auto dead = deadPointOf(readStudyText(each, "s.toml"));
+      ASSERT_TRUE(dead) << lengths;
+      EXPECT_EQ(dead->alike, std::vector<std::string>{"C"}) << lengths;
+      EXPECT_THAT(dead->sentence(), HasSubstr("to where rows of C depend on each other"));
+      EXPECT_THAT(dead->advice(), ::testing::Not(HasSubstr("multipliers")));
+    }
+  }
 }
 
 /// No force carries a driven rocker beyond its extreme.
