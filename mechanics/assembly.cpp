@@ -477,6 +477,12 @@ void Assembly<S>::takeNumbers(const Mechanism& mechanism, const std::vector<std:
       throw std::invalid_argument(unknownName("parameter", freeParameters[i], parameters));
     if (!named.insert(freeParameters[i]).second)
       throw std::invalid_argument("the free parameter '" + freeParameters[i] + "' is named twice");
+    for (const Mechanism::LeftOut& leftOut : mechanism.leftOut())
+      if (leftOut.restsOn.contains(freeParameters[i]))
+        throw UnfitPart(freeParameters[i],
+                        "'" + freeParameters[i] + "' is uncertain, but the loop '" + leftOut.element +
+                            "' can be closed for its nominal value alone",
+                        "a number that is certain, or a closure that holds less (`pin` in planar loops)");
     (mechanism.isParameter(freeParameters[i]) ? parts_.parameters_ : parts_.initials_).at(freeParameters[i]) =
         values[i];
     parts_.known_.erase(freeParameters[i]);

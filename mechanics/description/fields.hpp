@@ -65,10 +65,31 @@ struct FixedPoint {
   ExpressionVector place = {0.0, 0.0, 0.0};  ///< in that frame [m]
 };
 
+/// How an element moves a frame, where that is said by turns and slides: fixed at a place, by rotations, then turned
+/// about axes and slid along directions that are fixed in both, one after the other.
+struct KnownMotion {
+  struct Step {
+    bool turns = false, slides = false;
+    Axis axis = axisZ;
+  };
+  ExpressionVector place = {0.0, 0.0, 0.0};  ///< m
+  std::vector<FixedRotation> rotation = {};
+  std::vector<Step> steps = {};
+};
+
 /// What closes on itself: two frames, and by how many equations.
 struct Loop {
   std::string from, to;
   std::size_t rows = 0;
+};
+
+/// What a closure holds: points together along its axis and across it, axes parallel. Without an axis of its own, any.
+struct HeldRows {
+  bool along = false, across = false, parallel = false;
+  std::optional<Axis> axis = std::nullopt;  ///< in the frame of the first point
+  Axis toAxis = axisZ;                      ///< that stays parallel to it
+
+  std::size_t count() const { return (along ? 1U : 0U) + (across ? 2U : 0U) + (parallel ? 2U : 0U); }
 };
 
 class Fields {
@@ -84,6 +105,8 @@ class Fields {
   virtual void otherFrame(const Word& word, std::string& name, const std::string& /*other*/) { frame(word, name); }
   /// A frame that this element moves by another.
   virtual void movedFrame(const Word& word, std::string& name, const std::string& from) = 0;
+  /// The element moves the frame that it has named like this.
+  virtual void movesAs(const KnownMotion& /*motion*/) {}
   /// The element fixes a mass [kg] to a frame, which one of its words has named, with its centre there.
   virtual void carriesMass(const FixedPoint& /*centre*/, const Expression& /*mass*/) {}
   /// It is seen as a spring between these ends. What moves a frame and what carries mass is seen as that.
@@ -138,6 +161,9 @@ class Fields {
   virtual Coordinate struckCoordinate(const Word& word, std::string& name, Start& /*start*/) {
     return coordinateOf(word, name);
   }
+  /// What a closure holds between two points, and, of the mechanism, what of it does not hold anyway.
+  virtual void closesBetween(const FixedPoint& /*from*/, const FixedPoint& /*to*/, const HeldRows& /*wanted*/,
+                             std::optional<HeldRows>& /*left*/) {}
   /// Coordinates that close a loop between two frames, so many: they follow from the others, and their initial
   /// positions are where the closed position is looked for. Without names
   /// they are those of the loop that stand last, of those without an initial rate where these are enough.

@@ -1,6 +1,8 @@
 // The description of a mechanism: every name is checked when it is added, so that an assembly can rely on it.
 #include "mechanics/description/mechanism.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -10,6 +12,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "mechanics/description/loop_structure.hpp"
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/quantities.hpp"
 #include "mechanics/description/refusal.hpp"
@@ -77,6 +80,27 @@ std::string remarkOn(const std::string& name, const std::string& use) {
 
 bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string wordFor(const Axis& axis) {
+  const auto [x, y, z] = axis.direction();
+  return axis.isAligned() ? components[static_cast<std::size_t>(axis.index())]
+                          : fmt::format("[{:.6g}, {:.6g}, {:.6g}]", x, y, z);
+}
+
+/// What a closure need not hold.
+std::string sentenceOnLeftOut(const std::string& element, const std::string& frame, const HeldRows& wanted,
+                              const HeldRows& left) {
+  const bool isAlong = wanted.along && !left.along, isAcross = wanted.across && !left.across;
+  std::string what;
+  if (isAlong || isAcross) what = "its points stay together";
+  if (isAlong != isAcross)
+    what += fmt::format(" {} {} of '{}'", isAlong ? "along" : "across", wordFor(*left.axis), frame);
+  if (wanted.parallel && !left.parallel) what += std::string(what.empty() ? "" : " and ") + "its axes stay parallel";
+  const std::string count = left.count() == 0 ? "none" : std::to_string(left.count());
+  return fmt::format(
+      "'{}' holds {} of its {} rows, as {} whatever the joints between its frames do; it bears nothing there", element,
+      count, wanted.count(), what);
 }
 
 std::vector<std::string> namesOf(const Named<Mechanism::NamedValue>& values) {
@@ -506,7 +530,19 @@ class Mechanism::Checker final : public Fields {
                           : "one loop alone where both hold the same, or a closure that holds less (`pin` in planar "
                             "loops)");
   }
+  void closesBetween(const FixedPoint& from, const FixedPoint& to, const HeldRows& wanted,
+                     std::optional<HeldRows>& left) override {
+    left = wanted;
+    const HoldsAnyway holds = holdsAnyway(m_, element_, from, to, wanted);
+    left->along = wanted.along && !holds.along;
+    left->across = wanted.across && !holds.across;
+    left->parallel = wanted.parallel && !holds.parallel;
+    if (left->count() == wanted.count()) return;
+    left->axis = holds.axis;
+    m_.leftOut_.push_back({element_, sentenceOnLeftOut(element_, from.frame, wanted, *left), holds.restsOn});
+  }
   void dependentCoordinates(const Word& /*word*/, std::vector<std::string>& names, const Loop& loop) override {
+    if (loop.rows == 0 && names.empty()) return;
     const bool isChosen = names.empty();
     if (isChosen) names = m_.coordinatesBetween(loop.from, loop.to, loop.rows);
     const std::string needed = std::to_string(loop.rows) + (loop.rows == 1 ? " coordinate" : " coordinates");

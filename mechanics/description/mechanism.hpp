@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -165,6 +166,12 @@ class Mechanism {
     bool isChosen;  ///< by structure, not by name
   };
   const std::vector<Closed>& loops() const { return loops_; }
+  /// What closures leave out of what they hold, as it holds anyway.
+  struct LeftOut {
+    std::string element, sentence;
+    std::set<std::string> restsOn;  ///< parameters by whose nominal values alone it holds
+  };
+  const std::vector<LeftOut>& leftOut() const { return leftOut_; }
   /// Where the loops nearly close at the start: what dependent coordinates differ by from those of the nominal machine,
   /// of the values of these free parameters. Recorded machines begin Newton's steps there.
   void closeNear(std::vector<std::string> freeParameters, std::shared_ptr<const Program> offsets) {
@@ -289,6 +296,7 @@ class Mechanism {
   std::vector<Following> followings_;
   std::vector<std::string> dependents_;  // coordinates
   std::vector<Closed> loops_;
+  std::vector<LeftOut> leftOut_;
   struct Nearby {
     std::vector<std::string> freeParameters;
     std::shared_ptr<const Program> offsets;

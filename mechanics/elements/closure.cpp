@@ -2,6 +2,8 @@
 #include "mechanics/elements/closure.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/closing.hpp"
@@ -16,8 +18,6 @@ struct Held {
   const char* as;
   bool along, across, parallel;
   int turns, slides;  // as it is seen
-
-  std::size_t rows() const { return (along ? 1U : 0U) + (across ? 2U : 0U) + (parallel ? 2U : 0U); }
 };
 
 constexpr std::array held = {Held{"ball", true, true, false, 3, 0}, Held{"hinge", true, true, true, 1, 0},
@@ -44,6 +44,12 @@ constexpr const char* dependentMeaning =
 
 }  // namespace
 
+HeldRows Closure::wanted() const {
+  const Held& holds = heldAs(as);
+  const bool hasAxis = !(holds.along && holds.across) || holds.parallel;
+  return {holds.along, holds.across, holds.parallel, hasAxis ? std::optional(axis) : std::nullopt, toAxis};
+}
+
 void Closure::describe(Fields& f) {
   describeEnds(f, from, to, fromPoint, toPoint);
   std::vector<std::string> words;
@@ -57,7 +63,8 @@ void Closure::describe(Fields& f) {
   f.jointAxis({"axis", "", "in `from`; `\"z\"` unless given"}, axis, from);
   f.drawsJoint({to, toPoint}, heldAs(as).turns, heldAs(as).slides);
   f.axis({"to_axis", "", "of a `hinge` and a `cylinder`: the same axis in `to`; `\"z\"` unless given"}, toAxis);
-  f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, heldAs(as).rows()});
+  f.closesBetween({from, fromPoint}, {to, toPoint}, wanted(), left);
+  f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, rows().count()});
   for (const char* component : components)
     f.measureSolved({std::string("force.") + component, "N", "what it does to `to`, in inertial axes"});
   for (const char* component : components)
@@ -72,20 +79,25 @@ std::vector<Fault> Closure::faults(const RangeOf& /*rangeOf*/) const {
 
 template <class S>
 void Closure::assemble(Assembler<S>& a) const {
-  const Held& holds = heldAs(as);
-  const std::array<Vector3<S>, 2> besides = across<S>(axis);
+  const HeldRows holds = rows();
+  const Axis along = holds.axis.value_or(axis);
+  const std::array<Vector3<S>, 2> besides = across<S>(along);
   std::vector<Vector3<S>> directions;
-  if (holds.along) directions.push_back(axis.unit<S>());
+  if (holds.along) directions.push_back(along.unit<S>());
   if (holds.across) directions.insert(directions.end(), besides.begin(), besides.end());
   std::vector<typename Closing<S>::RightAngle> rightAngles;
   if (holds.parallel)
     for (const Vector3<S>& each : besides) rightAngles.emplace_back(each, toAxis.unit<S>());
-  auto& closing =
-      a.template add<Closing<S>>(CarriedPoint<S>{&a.frame(from), a.vector(fromPoint)},
-                                 CarriedPoint<S>{&a.frame(to), a.vector(toPoint)}, directions, rightAngles, axis);
+  const Closing<S>* closing = nullptr;  // where all holds anyway
+  if (holds.count() > 0)
+    closing = &a.template add<Closing<S>>(CarriedPoint<S>{&a.frame(from), a.vector(fromPoint)},
+                                          CarriedPoint<S>{&a.frame(to), a.vector(toPoint)}, std::move(directions),
+                                          std::move(rightAngles), along);
   for (int i = 0; i < 3; ++i) {
-    a.measureSolved(std::string("force.") + components[i], [&closing, i] { return S(closing.force()[i]); });
-    a.measureSolved(std::string("moment.") + components[i], [&closing, i] { return S(closing.moment()[i]); });
+    a.measureSolved(std::string("force.") + components[i],
+                    [closing, i] { return closing == nullptr ? S(0.0) : S(closing->force()[i]); });
+    a.measureSolved(std::string("moment.") + components[i],
+                    [closing, i] { return closing == nullptr ? S(0.0) : S(closing->moment()[i]); });
   }
 }
 

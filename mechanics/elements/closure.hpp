@@ -1,6 +1,10 @@
 // A loop that is closed between two frames.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "mechanics/description/described.hpp"
 
 namespace gamut {
@@ -16,11 +20,16 @@ struct Closure {
   ExpressionVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};  ///< m
   Axis axis = axisZ, toAxis = axisZ;
   std::vector<std::string> dependent;
+  std::optional<HeldRows> left = std::nullopt;  ///< of a mechanism's: what of `as` does not hold anyway
 
   void describe(Fields& f);
   std::vector<Fault> faults(const RangeOf& rangeOf) const;
   template <class S>
   void assemble(Assembler<S>& a) const;
+
+ private:
+  HeldRows wanted() const;
+  HeldRows rows() const { return left ? *left : wanted(); }
 };
 
 /// A rod without mass between points of two frames.

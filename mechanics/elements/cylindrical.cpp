@@ -14,6 +14,7 @@ void Cylindrical::describe(Fields& f) {
                {"displacement_rate", "m/s", "at the start"}, displacementRate);
   f.coordinate({"angle", "rad", "at the start"}, angle, Coordinate::angle, {"angle_rate", "rad/s", "at the start"},
                angleRate);
+  f.movesAs({.steps = {{.slides = true, .axis = axis}, {.turns = true, .axis = axis}}});
 }
 
 template <class S>

@@ -13,6 +13,7 @@ void Link::describe(Fields& f) {
   f.movedFrame({"to", "", "the frame at its end"}, to, from);
   f.vector({"vector", "m", "the place of `to` in `from`", true}, vector);
   f.rotations({"rotation", "rad", "of `to` against `from`: " + orientationForms}, rotation);
+  f.movesAs({vector, rotation});
 }
 
 template <class S>

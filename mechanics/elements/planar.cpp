@@ -1,10 +1,21 @@
 // Two prismatic joints and a revolute one, with hidden frames between them.
 #include "mechanics/elements/planar.hpp"
 
+#include <array>
+
 #include "mechanics/assembler.hpp"
 #include "mechanics/joints.hpp"
 
 namespace gamut {
+namespace {
+
+/// The coordinate axis that stands so many places behind an aligned one.
+const Axis& following(const Axis& axis, int by) {
+  static const std::array<Axis, 3> axes = {axisX, axisY, axisZ};
+  return axes[(axis.index() + by + 3) % 3];
+}
+
+}  // namespace
 
 void Planar::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the joint"}, from);
@@ -16,6 +27,9 @@ void Planar::describe(Fields& f) {
                {"displacement2_rate", "m/s", "at the start"}, displacement2Rate);
   f.coordinate({"angle", "rad", "at the start"}, angle, Coordinate::angle, {"angle_rate", "rad/s", "at the start"},
                angleRate);
+  f.movesAs({.steps = {{.slides = true, .axis = following(axis, 1)},
+                       {.slides = true, .axis = following(axis, 2)},
+                       {.turns = true, .axis = axis}}});
 }
 
 std::vector<Fault> Planar::faults(const RangeOf& /*rangeOf*/) const {
@@ -26,11 +40,9 @@ std::vector<Fault> Planar::faults(const RangeOf& /*rangeOf*/) const {
 
 template <class S>
 void Planar::assemble(Assembler<S>& a) const {
-  const std::array<Axis, 3> axes = {axisX, axisY, axisZ};
-  const auto next = [&](int by) { return axes[(axis.index() + by) % 3]; };
   Frame<S>&first = a.hiddenFrame(), &second = a.hiddenFrame();
-  a.template add<PrismaticJoint<S>>(a.frame(from), first, a.variable("displacement1"), next(1));
-  a.template add<PrismaticJoint<S>>(first, second, a.variable("displacement2"), next(2));
+  a.template add<PrismaticJoint<S>>(a.frame(from), first, a.variable("displacement1"), following(axis, 1));
+  a.template add<PrismaticJoint<S>>(first, second, a.variable("displacement2"), following(axis, 2));
   a.template add<RevoluteJoint<S>>(second, a.frame(to), a.variable("angle"), axis);
 }
 

@@ -11,6 +11,7 @@ void Prismatic::describe(Fields& f) {
   f.jointAxis({"axis", "", "along which it slides", true}, axis, from);
   f.coordinate({"displacement", "m", "at the start"}, displacement, Coordinate::displacement,
                {"rate", "m/s", "at the start"}, rate);
+  f.movesAs({.steps = {{.slides = true, .axis = axis}}});
 }
 
 template <class S>

@@ -10,6 +10,7 @@ void Revolute::describe(Fields& f) {
   f.movedFrame({"to", "", "the frame that turns"}, to, from);
   f.jointAxis({"axis", "", "about which it turns", true}, axis, from);
   f.coordinate({"angle", "rad", "at the start"}, angle, Coordinate::angle, {"rate", "rad/s", "at the start"}, rate);
+  f.movesAs({.steps = {{.turns = true, .axis = axis}}});
 }
 
 template <class S>

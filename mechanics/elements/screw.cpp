@@ -36,6 +36,7 @@ void Screw::describe(Fields& f) {
   f.jointAxis({"axis", "", "of both", true}, axis, from);
   f.number({"lead", "m", "how far it slides in one turn; below 0 for a left-handed thread", true}, lead);
   f.coordinate({"angle", "rad", "at the start"}, angle, Coordinate::angle, {"rate", "rad/s", "at the start"}, rate);
+  f.movesAs({.steps = {{.turns = true, .slides = true, .axis = axis}}});
 }
 
 template <class S>

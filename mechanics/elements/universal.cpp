@@ -13,6 +13,7 @@ void Universal::describe(Fields& f) {
   f.jointAxis({"second_axis", "", "of the second angle; `\"y\"` unless given"}, secondAxis, to);
   f.coordinate({"angle1", "rad", "at the start"}, angle1, Coordinate::angle, {"rate1", "rad/s", "at the start"}, rate1);
   f.coordinate({"angle2", "rad", "at the start"}, angle2, Coordinate::angle, {"rate2", "rad/s", "at the start"}, rate2);
+  f.movesAs({.steps = {{.turns = true, .axis = axis}, {.turns = true, .axis = secondAxis}}});
 }
 
 std::vector<Fault> Universal::faults(const RangeOf& /*rangeOf*/) const {

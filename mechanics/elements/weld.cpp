@@ -10,6 +10,7 @@ void Weld::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the other"}, from);
   f.movedFrame({"to", "", "the frame that is fixed to it"}, to, from);
   f.rotations({"rotation", "rad", "of `to` against `from`: " + orientationForms}, rotation);
+  f.movesAs({.rotation = rotation});
 }
 
 template <class S>

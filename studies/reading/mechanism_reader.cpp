@@ -704,8 +704,10 @@ TomlSource::Names namesStatedIn(const TomlSource& source) {
   return names;
 }
 
-ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
-                            const std::optional<FilesAtHand>& files) {
+namespace {
+
+ReadMechanism readWithFirmDependents(const TomlSource& source, const toml::table& table,
+                                     const std::vector<Described>& types, const std::optional<FilesAtHand>& files) {
   ReadMechanism read = MechanismReader(source, table, types, files).read();
   if (!read.mechanism.isClosed()) return read;
   const DependentsOf firmer = firmerDependents(read.mechanism, uncertainIn(source));
@@ -719,6 +721,16 @@ ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, 
           fmt::format("the loop '{}' is closed by {}, as {}, which stand last, hold it weakly where it starts",
                       loop.element, fmt::join(at->second, ", "), fmt::join(loop.by, ", "))));
   return other;
+}
+
+}  // namespace
+
+ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
+                            const std::optional<FilesAtHand>& files) {
+  ReadMechanism read = readWithFirmDependents(source, table, types, files);
+  for (const Mechanism::LeftOut& leftOut : read.mechanism.leftOut())
+    read.notes.push_back(source.note(*read.places.at(leftOut.element), leftOut.sentence));
+  return read;
 }
 
 }  // namespace gamut

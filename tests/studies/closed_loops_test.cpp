@@ -327,6 +327,31 @@ TEST(ClosedLoopStudy, ChoosesCoordinatesThatHoldFirmlyWhereItStarts) {
               HasSubstr("the loop 'C' starts at a dead point of B.angle, D.angle"));
 }
 
+/// What a ball or a hinge holds beyond a pin follows from how the loop is built: it is left out, told, and enclosures
+/// are those of the pin.
+TEST(ClosedLoopStudy, LeavesOutWhatHoldsAnyway) {
+  const std::string pinned = fourBarText("1", uncertain({"a", "c"}, "± 0.1 %"));
+  EXPECT_THAT(readStudyText(pinned, "s.toml").notes, ::testing::IsEmpty());
+  const Tube expected = enclosed(machineOf(pinned));
+  for (const char* as : {"ball", "hinge", "cylinder"}) {
+    const std::string text = replaced(pinned, "as = \"pin\"", std::string("as = \"") + as + "\"");
+    const Machine machine = machineOf(text);
+    ASSERT_EQ(machine.study.notes.size(), 1U);
+    EXPECT_THAT(machine.study.notes[0], HasSubstr("note: 'C' holds 2 of its "));
+    const Tube tube = enclosed(machine);
+    ASSERT_EQ(tube.reached(), 1) << tube.why();
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_TRUE(isEqual(tube.outputs(tube.reachedTimes() - 1)[j], expected.outputs(expected.reachedTimes() - 1)[j]));
+    Box lengths = lengthsWithin(0);
+    lengths[0] = machine.box[4];
+    lengths[2] = machine.box[5];
+    for (const std::size_t i : {1U, 3U}) lengths[i] = Interval(midpoint(lengths[i]));
+    expectEnclosed(tube, lengths, Interval(1.0), 4);
+    EXPECT_THAT(refusalOf(replaced(text, "[[output]]", uncertain({"bc.vector.z"}, "± 1 mm") + "[[output]]")),
+                HasSubstr("'bc.vector.z' is uncertain, but the loop 'C' can be closed for its nominal value alone"));
+  }
+}
+
 /// All bars lie in line, where the linkage may go on in two ways.
 TEST(ClosedLoopStudy, SaysThatItsRowsDependOnEachOther) {
   std::string flat = replaced(fourBarText("1", "", "", "angle = -3.1"), "d = \"0.9 m\"", "d = \"1.1 m\"");
