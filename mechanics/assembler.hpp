@@ -60,6 +60,8 @@ class Assembler {
   S& state(Signal<S> rate) { return giveRate(element_, std::move(rate)); }
 
   void endTravel(RigidEnd<S> end) { ends_.push_back(std::move(end)); }
+  /// The element's loop is held by it.
+  void closes(Constraint<S>& by) { closings_[element_] = &by; }
 
   const S& time() const { return time_; }
   /// The present value of an expression of time, states and whatever can be measured, after positions and velocities
@@ -132,6 +134,7 @@ class Assembler {
   std::map<std::string, Signal<S>> rates_;         // of these
   std::map<std::string, Signal<S>> measured_;      // whatever can be looked at
   std::vector<RigidEnd<S>> ends_;
+  std::map<std::string, Constraint<S>*> closings_;  // by element
   std::vector<std::unique_ptr<Element<S>>> given_, first_, parts_;
 };
 

@@ -1,6 +1,9 @@
 // From the description to frames and elements, once for each scalar.
 #include "mechanics/assembly.hpp"
 
+#include <fmt/format.h>
+
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -149,6 +152,57 @@ OpenLoops::Nearest nearestClosed(const Mechanism& mechanism, System<double>& sys
       std::move(nearest));
 }
 
+template <class S>
+const std::string& elementOf(const Constraint<S>& constraint, const std::map<std::string, Constraint<S>*>& closings) {
+  return std::ranges::find_if(closings, [&](const auto& each) { return each.second == &constraint; })->first;
+}
+
+/// By what dependent positions are off, where more rows are held than there are such: to first order, by least squares.
+std::vector<double> leastOpening(System<double>& system) {
+  const std::vector<double> rows = system.residuals();
+  const Eigen::MatrixXd jacobian = jacobianOfLoops(system).rightCols(static_cast<Eigen::Index>(system.dependents()));
+  if (jacobian.cols() == 0) return {};
+  constexpr double nothing = 1e-9;  // where fewer rows are independent than there are such positions
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposed;
+  decomposed.setThreshold(nothing);
+  decomposed.compute(jacobian);
+  const Eigen::VectorXd by =
+      decomposed.solve(Eigen::Map<const Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size())));
+  return {by.begin(), by.end()};
+}
+
+/// Where a loop that holds redundant rows does not close by all of them.
+void refuseRowsApart(System<double>& system, const std::map<std::string, Constraint<double>*>& closings,
+                     const std::vector<std::size_t>& redundant) {
+  constexpr double closed = 1e-9;
+  const double scale = jacobianOfLoops(system).cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < redundant.size(); ++i) {
+    if (redundant[i] == 0) continue;
+    const Constraint<double>& constraint = *system.chain().constraints()[i];
+    const std::vector<double> rows = constraint.residuals();
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      if (const std::string& element = elementOf(constraint, closings); !(std::abs(rows[row]) < closed * scale))
+        throw UnfitPart(element,
+                        fmt::format("the rows of the loop '{}' do not hold together, as `redundant` says: {} are off "
+                                    "by {:.3g} where it closes best",
+                                    element, constraint.rowNames()[row], std::abs(rows[row])),
+                        "numbers for which all of them hold, by formulas where they are not round, or a closure that "
+                        "holds less");
+  }
+}
+
+void refuseOtherRows(const RowChoice& choice, std::size_t constraint, const std::string& element) {
+  if (!choice.isEnough)
+    throw UnfitPart(element, "more rows of the loop '" + element + "' follow from others than are `redundant`",
+                    "a greater `redundant`");
+  if (choice.others[constraint] > 0)
+    throw UnfitPart(element,
+                    fmt::format("of the rows of the loop '{}' {} do not follow from the others where it starts, though "
+                                "they are `redundant`",
+                                element, choice.others[constraint]),
+                    "a smaller `redundant`");
+}
+
 }  // namespace
 
 template <class S>
@@ -221,6 +275,11 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
     origin_.push_back(isDifference[origin_.size()] ? initialState_.back() : S(0.0));
   }
   if (closesLoops) closeLoops(mechanism, freeParameters, values);
+  if constexpr (std::is_same_v<S, double>)
+    if (!closesLoops) {
+      placeAtStart();
+      leaveOutRedundant(mechanism, false);
+    }
   // What is recorded is the motion from any state; at the initial one it may be singular.
   if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
 }
@@ -303,11 +362,19 @@ std::vector<S> Assembly<S>::rowsAtStart(std::span<const S> dependents) {
 template <class S>
 void Assembly<S>::closeLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                              std::span<const S> values) {
-  if (dependents_.empty()) return;
+  const std::vector<std::size_t> redundant = redundantRows(mechanism);
+  if (dependents_.empty() && redundant.empty()) return;
+  bool areRowsOpen = !redundant.empty();  // which of them are left out is not found yet
+  if (areRowsOpen && !(std::is_same_v<S, double> && freeParameters.empty())) {
+    leaveOutAs(Assembly<double>(mechanism));
+    areRowsOpen = false;
+  }
   findTriangles(mechanism);
   const auto openingAt = [&](const std::vector<S>& positions) {
     for (std::size_t i = 0; i < dependents_.size(); ++i) initialState_[dependents_[i]] = positions[i];
     placeAtStart();
+    if constexpr (std::is_same_v<S, double>)
+      if (areRowsOpen) return leastOpening(*system_);
     return system_->opening();
   };
   const auto moved = [](std::vector<S> positions, const std::vector<S>& by, double share) {
@@ -346,21 +413,30 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism, const std::vector<std::
       if (!(size(rest) < size(by)) && size(by) < digits) break;
       by = std::move(rest);
     }
+    const auto nearest = [&] {
+      return nearestClosed(mechanism, *system_, start, [&](const auto& positions) { openingAt(positions); });
+    };
+    if (areRowsOpen) {
+      if (!(size(openingAt(at)) < closed)) refuseOpen(mechanism, size(by) == size(by), nearest());
+      leaveOutRedundant(mechanism, true);
+      areRowsOpen = false;
+    }
+    if (at.empty()) return;
     by = openingAt(at);
     constexpr double dead = 1e-6;
     const LoopGrip grip = gripOfLoops(mechanism, *system_);
     const bool isClosed = size(system_->residuals()) < closed * jacobianOfLoops(*system_).cwiseAbs().maxCoeff();
     if (!(size(by) < closed) || grip.share < dead) {
       if (isClosed) refuseDeadPoint(mechanism, grip, loopsAlike(mechanism, *system_));
-      OpenLoops::Nearest nearest =
-          nearestClosed(mechanism, *system_, start, [&](const auto& positions) { openingAt(positions); });
-      if (const LoopGrip there = gripOfLoops(mechanism, *system_); nearest.isClosed && there.share < dead)
+      OpenLoops::Nearest found = nearest();
+      if (const LoopGrip there = gripOfLoops(mechanism, *system_); found.isClosed && there.share < dead)
         refuseDeadPoint(mechanism, there, loopsAlike(mechanism, *system_));
-      refuseOpen(mechanism, size(by) == size(by), std::move(nearest));
+      refuseOpen(mechanism, size(by) == size(by), std::move(found));
     }
     for (Loop& loop : loops_)
       if (loop.triangle && !loop.triangle->given().empty()) loop.side = loop.triangle->side();
   } else {
+    if (at.empty()) return;
     const Assembly<double> nominal(mechanism);
     for (std::size_t i = 0; i < at.size(); ++i) at[i] = S(nominal.initialState()[dependents_[i]]);
     if constexpr (std::is_same_v<S, Recorded>)
@@ -380,6 +456,82 @@ void Assembly<S>::closeLoops(const Mechanism& mechanism, const std::vector<std::
     for (std::size_t i = 0; i < at.size(); ++i) initialState_[dependents_[i]] = origin_[dependents_[i]] = at[i];
   }
   closeRates();
+}
+
+/// Of each constraint; empty where nothing is redundant.
+template <class S>
+std::vector<std::size_t> Assembly<S>::redundantRows(const Mechanism& mechanism) const {
+  std::vector<std::size_t> all(chain_.constraints().size(), 0);
+  bool isAny = false;
+  for (const Mechanism::Closed& loop : mechanism.loops()) {
+    if (loop.redundant == 0) continue;
+    const auto at = std::ranges::find(chain_.constraints(), parts_.closings_.at(loop.element));
+    all[static_cast<std::size_t>(at - chain_.constraints().begin())] = loop.redundant;
+    isAny = true;
+  }
+  return isAny ? all : std::vector<std::size_t>();
+}
+
+template <class S>
+void Assembly<S>::leaveOutAs(const Assembly<double>& nominal) {
+  for (std::size_t i = 0; i < chain_.constraints().size(); ++i)
+    chain_.constraints()[i]->leaveOut(nominal.chain_.constraints()[i]->leftOut());
+}
+
+/// Where all rows are to be closed, they are.
+template <class S>
+void Assembly<S>::leaveOutRedundant(const Mechanism& mechanism, bool isClosed) {
+  if constexpr (std::is_same_v<S, double>) {
+    const std::vector<std::size_t> redundant = redundantRows(mechanism);
+    if (redundant.empty()) return;
+    if (isClosed) refuseRowsApart(*system_, parts_.closings_, redundant);
+    const RowChoice choice = rowsToLeaveOut(mechanism, *system_, redundant);
+    for (std::size_t i = 0; i < redundant.size(); ++i) {
+      Constraint<double>& constraint = *chain_.constraints()[i];
+      constraint.leaveOut(choice.leftOut[i]);
+      if (isClosed && redundant[i] > 0) refuseOtherRows(choice, i, elementOf(constraint, parts_.closings_));
+    }
+  }
+}
+
+template <class S>
+std::vector<typename Assembly<S>::AssumedRow> Assembly<S>::assumedRows() const {
+  std::vector<AssumedRow> rows;
+  for (const Constraint<S>* constraint : chain_.constraints())
+    for (const std::size_t row : constraint->leftOut())
+      rows.push_back({elementOf(*constraint, parts_.closings_), constraint->rowNames()[row]});
+  return rows;
+}
+
+template <class S>
+std::vector<S> Assembly<S>::assumedResiduals() const {
+  std::vector<S> rows;
+  for (const Constraint<S>* constraint : chain_.constraints()) {
+    if (constraint->leftOut().empty()) continue;
+    const std::vector<S> all = constraint->allResiduals();
+    for (const std::size_t row : constraint->leftOut()) rows.push_back(all[row]);
+  }
+  return rows;
+}
+
+template <class S>
+std::vector<double> Assembly<S>::assumedScales() requires std::same_as<S, double> {
+  std::vector<double> scales(assumedRows().size(), 0.0);
+  for (std::size_t j = 0; j < static_cast<std::size_t>(system_->degreesOfFreedom()); ++j) {
+    std::vector<double> unit(static_cast<std::size_t>(system_->degreesOfFreedom()), 0.0);
+    unit[j] = 1;
+    system().setAccelerations(unit);
+    system_->doMotion(MotionLevel::acceleration);
+    std::size_t i = 0;
+    for (const Constraint<double>* constraint : chain_.constraints()) {
+      const std::vector<double> rows = constraint->allAccelerations(MotionLevel::acceleration);
+      for (const std::size_t row : constraint->leftOut()) {
+        scales[i] = std::max(scales[i], std::abs(rows[row]));
+        ++i;
+      }
+    }
+  }
+  return scales;
 }
 
 /// Initial rates of dependent coordinates, where they are states.

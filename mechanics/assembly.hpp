@@ -82,6 +82,18 @@ class Assembly {
   std::vector<S> rowsOfMotion(std::span<const S> v, std::span<const S> rates, std::span<const S> accelerations,
                               const S& time);
 
+  /// A row of a closure that is assumed to follow from all others (Closure::redundant), in words.
+  struct AssumedRow {
+    std::string element, row;
+  };
+  std::vector<AssumedRow> assumedRows() const;
+  /// How far these are from being closed at the present positions [m, or as the sine of an angle].
+  std::vector<S> assumedResiduals() const;
+  /// By how much a unit of the speed that moves it most moves each of these.
+  std::vector<double> assumedScales() requires std::same_as<S, double>;
+  /// Of all rows that are held.
+  std::vector<S> residuals() const { return system_->residuals(); }
+
   /// Further quantities that are known from elsewhere (Mechanism::measureModes).
   void tell(const std::string& quantity, Signal<S> value) { parts_.measured_[quantity] = std::move(value); }
 
@@ -109,6 +121,9 @@ class Assembly {
   void closeLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                   std::span<const S> values);
   void closeRates();
+  std::vector<std::size_t> redundantRows(const Mechanism& mechanism) const;
+  void leaveOutAs(const Assembly<double>& nominal);
+  void leaveOutRedundant(const Mechanism& mechanism, bool isClosed);
   void findTriangles(const Mechanism& mechanism);
   void placeTriangles();
   void releaseTriangles();

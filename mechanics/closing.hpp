@@ -9,6 +9,7 @@
 // Source: E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, 1989, section 9.4.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -83,7 +84,7 @@ class Closing final : public Constraint<S> {
         rightAngles_(std::move(rightAngles)),
         axis_(axis) {}
 
-  std::vector<S> residuals() const override {
+  std::vector<S> allResiduals() const override {
     std::vector<S> rows;
     const Vector3<S> d = motion().position;
     for (const Vector3<S>& e : directions_) rows.push_back(turned(e).dot(d));
@@ -92,10 +93,14 @@ class Closing final : public Constraint<S> {
     return rows;
   }
 
-  /// So many rows, the first, are lengths [m]; others are sines of how far angles are off.
-  std::size_t lengths() const { return directions_.size(); }
+  /// So many rows that are not left out, the first, are lengths [m]; others are sines of how far angles are off.
+  std::size_t lengths() const {
+    const std::size_t all = directions_.size();
+    return all - static_cast<std::size_t>(
+                     std::ranges::count_if(this->leftOut(), [all](std::size_t row) { return row < all; }));
+  }
 
-  std::vector<S> rates() const override {
+  std::vector<S> allRates() const override {
     std::vector<S> rows;
     const auto [d, rate] = motion();
     for (const Vector3<S>& e : directions_) {
@@ -110,7 +115,7 @@ class Closing final : public Constraint<S> {
     return rows;
   }
 
-  std::vector<S> accelerations(MotionLevel level) const override {
+  std::vector<S> allAccelerations(MotionLevel level) const override {
     std::vector<S> rows;
     const bool isWhole = level == MotionLevel::all;
     const Vector3<S> second = accelerationBetween(from_, to_, level);
@@ -131,6 +136,21 @@ class Closing final : public Constraint<S> {
       rows.push_back(std::move(row));
     }
     return rows;
+  }
+
+  std::vector<std::string> rowNames() const override {
+    std::vector<std::string> names;
+    const std::array<std::string, 3> letters = {"x", "y", "z"};
+    const auto named = [&](std::size_t after) {
+      return axis_.isAligned() ? letters[(static_cast<std::size_t>(axis_.index()) + after) % 3]
+             : after == 0      ? std::string("the axis")
+                               : "the " + std::string(after == 1 ? "first" : "second") + " direction across the axis";
+    };
+    const bool hasAlong = directions_.size() != 2;
+    for (std::size_t i = 0; i < directions_.size(); ++i)
+      names.push_back("places along " + named(i + (hasAlong ? 0 : 1)));
+    for (std::size_t i = 0; i < rightAngles_.size(); ++i) names.push_back("the axis across " + named(i + 1));
+    return names;
   }
 
   /// Whether it keeps both points together across its axis, and nothing else.
@@ -164,6 +184,7 @@ class Closing final : public Constraint<S> {
   /// `from` is known to turn about the axis alone, as in planar loops.
   bool isInertial() const {
     if (directions_.size() == 3) return true;
+    if (!this->leftOut().empty()) return false;  // so that a row is the same one for every scalar
     if constexpr (std::is_same_v<S, Recorded>) {
       const Matrix3<S>& r = from_.frame->R;
       const auto isKnown = [&](int i) {
@@ -198,20 +219,21 @@ class Rod final : public Constraint<S> {
   Rod(CarriedPoint<S> from, CarriedPoint<S> to, S length)
       : from_(std::move(from)), to_(std::move(to)), length_(std::move(length)) {}
 
-  std::vector<S> residuals() const override {
+  std::vector<S> allResiduals() const override {
     const Vector3<S> d = motion().position;
     return {(d.dot(d) - square(length_)) / (S(2.0) * length_)};
   }
-  std::vector<S> rates() const override {
+  std::vector<S> allRates() const override {
     const MovingPoint<S> d = motion();
     return {d.position.dot(d.velocity) / length_};
   }
-  std::vector<S> accelerations(MotionLevel level) const override {
+  std::vector<S> allAccelerations(MotionLevel level) const override {
     const MovingPoint<S> d = motion();
     S row = d.position.dot(accelerationBetween(from_, to_, level));
     if (level == MotionLevel::all) row += d.velocity.dot(d.velocity);
     return {row / length_};
   }
+  std::vector<std::string> rowNames() const override { return {"its length"}; }
   std::array<CarriedPoint<S>, 2> ends() const { return {from_, to_}; }
   const S& length() const { return length_; }
   /// By which the rod pushes its ends apart [N], of the last motion that was solved for.

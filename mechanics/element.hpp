@@ -10,7 +10,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -188,15 +190,31 @@ class Constraint : public Element<S> {
   explicit Constraint(S stabilisation = S(0.0)) : stabilisation_(std::move(stabilisation)) {}
 
   /// g, one entry a row, at the present positions.
-  virtual std::vector<S> residuals() const = 0;
+  std::vector<S> residuals() const { return kept(allResiduals()); }
   /// ġ at the present positions and velocities.
-  virtual std::vector<S> rates() const = 0;
+  std::vector<S> rates() const { return kept(allRates()); }
   /// g̈ at the present motion; at MotionLevel::acceleration, what the frames' accelerations give of it: G u̇.
-  virtual std::vector<S> accelerations(MotionLevel level) const = 0;
+  std::vector<S> accelerations(MotionLevel level) const { return kept(allAccelerations(level)); }
 
-  /// Of the present motion, a force or moment that fits its row: what the machine feels of being closed.
+  /// Of all rows these are left to others, which hold them; they bear no force.
+  void leaveOut(std::vector<std::size_t> rows) { leftOut_ = std::move(rows); }
+  const std::vector<std::size_t>& leftOut() const { return leftOut_; }
+  virtual std::vector<S> allResiduals() const = 0;
+  virtual std::vector<S> allRates() const = 0;
+  virtual std::vector<S> allAccelerations(MotionLevel level) const = 0;
+  /// What each row holds, in words: "along x".
+  virtual std::vector<std::string> rowNames() const = 0;
+
+  /// Of the present motion, a force or moment that fits its row, zero of those left out: what the machine feels of
+  /// being closed.
   const std::vector<S>& multipliers() const { return multipliers_; }
-  void setMultipliers(std::vector<S> multipliers) { multipliers_ = std::move(multipliers); }
+  /// One a row that is not left out, or none.
+  void setMultipliers(std::vector<S> multipliers) {
+    multipliers_ = std::move(multipliers);
+    if (!multipliers_.empty())
+      for (const std::size_t row : leftOut_)
+        multipliers_.insert(multipliers_.begin() + static_cast<std::ptrdiff_t>(row), S(0.0));
+  }
   const S& stabilisation() const { return stabilisation_; }
 
   void doMotion(MotionLevel /*level*/ = MotionLevel::all) override {}
@@ -209,8 +227,15 @@ class Constraint : public Element<S> {
   virtual void applyForce() = 0;
 
  private:
+  std::vector<S> kept(std::vector<S> rows) const {
+    for (auto row = leftOut_.rbegin(); row != leftOut_.rend(); ++row)
+      rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(*row));
+    return rows;
+  }
+
   S stabilisation_;
   std::vector<S> multipliers_;
+  std::vector<std::size_t> leftOut_;  // rising
 };
 
 /// Elements in the order in which motion passes through them: `chain << joint << link << mass`.

@@ -305,6 +305,7 @@ std::string jsonSummary(const Results& results, const Finding& finding, const Re
   json["excursion"] = number(results.comparison.excursion);
   json["overestimation"] = overestimationObject(results);
   json["dependence"] = textOrNull(results.dependence);
+  json["assumptions"] = textOrNull(results.assumptions);
   json["tightness"] = number(results.interval.tightness);
   json["shortfall"] = textOrNull(results.interval.shortfall);
   json["advice"] = textOrNull(results.interval.advice);

@@ -285,6 +285,7 @@ std::string textSummary(const Results& results) {
     if (part->present) spend(part->title(), part->spent());
   for (const CostInfo& cost : results.costs) spend(cost.what, cost.cpu);
   if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
+  if (!results.assumptions.empty()) text += fmt::format("  assumed, not proved: {}\n", results.assumptions);
   text += statisticsText(results);
   text += transformationText(results);
   if (results.distribution.present) text += probabilitiesText(results);

@@ -25,6 +25,7 @@
 #include "mechanics/rest.hpp"
 #include "scalars/program/recorder.hpp"
 #include "scalars/recorded.hpp"
+#include "studies/assumed_rows.hpp"
 #include "studies/machine_faults.hpp"
 #include "studies/results/fuzzy.hpp"
 #include "studies/watch.hpp"
@@ -398,6 +399,7 @@ Machine::Machine(Study of, const Progress& progress) : study(std::move(of)), fre
   cpu = processCpuSeconds() - start;
   takeCourses(*this);
   takeLevels(*this);
+  refuseRowsThatDoNotFollow(*this);
 }
 
 Box Machine::closed(Box other) const { return closedBox(*this, std::move(other)).box; }

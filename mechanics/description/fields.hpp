@@ -81,6 +81,7 @@ struct KnownMotion {
 struct Loop {
   std::string from, to;
   std::size_t rows = 0;
+  std::size_t redundant = 0;  ///< equations besides, which follow from all others
 };
 
 /// What a closure holds: points together along its axis and across it, axes parallel. Without an axis of its own, any.
@@ -122,6 +123,9 @@ class Fields {
   virtual void jointAxis(const Word& word, Axis& axis, const std::string& /*frame*/) { this->axis(word, axis); }
   /// Fixed rotations, one after the other; their numbers are KEY.1, KEY.2, … or KEY.roll, KEY.w and the like.
   virtual void rotations(const Word& word, std::vector<FixedRotation>& rotations) = 0;
+
+  /// A whole number from 0 to `most`, which is no quantity.
+  virtual void count(const Word& /*word*/, std::size_t& /*number*/, std::size_t /*most*/) {}
 
   // Numbers that do not change in a motion.
   virtual void number(const Word& word, Expression& number) = 0;

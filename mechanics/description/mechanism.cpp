@@ -443,6 +443,11 @@ class Mechanism::Checker final : public Fields {
                "four numbers of which one is not zero");
     }
   }
+  void count(const Word& word, std::size_t& number, std::size_t most) override {
+    if (number > most)
+      refuse("the " + word.key + " of " + inQuotes(element_) + " is " + std::to_string(number),
+             "a whole number from 0 to " + std::to_string(most));
+  }
   void number(const Word& word, Expression& number) override { m_.use(number, named(word), word.unit); }
   void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const> names,
                std::size_t /*least*/) override {
@@ -526,7 +531,8 @@ class Mechanism::Checker final : public Fields {
     refuse("the loop " + inQuotes(element_) + " is closed by " + needed + ", but between its frames " +
                std::to_string(count) + " may follow from others" + others,
            others.empty() ? "a loop with so many joints that move freely, balls and free bodies not counted, or a "
-                            "closure that holds less (`pin` in planar loops)"
+                            "closure that holds less (`pin` in planar loops); where some of what it holds follows from "
+                            "the rest for the numbers' sake, `redundant`, how many rows"
                           : "one loop alone where both hold the same, or a closure that holds less (`pin` in planar "
                             "loops)");
   }
@@ -542,7 +548,7 @@ class Mechanism::Checker final : public Fields {
     m_.leftOut_.push_back({element_, sentenceOnLeftOut(element_, from.frame, wanted, *left), holds.restsOn});
   }
   void dependentCoordinates(const Word& /*word*/, std::vector<std::string>& names, const Loop& loop) override {
-    if (loop.rows == 0 && names.empty()) return;
+    if (loop.rows + loop.redundant == 0 && names.empty()) return;
     const bool isChosen = names.empty();
     if (isChosen) names = m_.coordinatesBetween(loop.from, loop.to, loop.rows);
     const std::string needed = std::to_string(loop.rows) + (loop.rows == 1 ? " coordinate" : " coordinates");
@@ -556,7 +562,7 @@ class Mechanism::Checker final : public Fields {
       found(name);
       m_.depend(name, element_);
     }
-    m_.loops_.push_back({element_, names, isChosen});
+    m_.loops_.push_back({element_, names, isChosen, loop.redundant});
   }
   void timeFunction(const Word& word, Expression& number) override {
     if (!number.isSmooth())

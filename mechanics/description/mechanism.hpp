@@ -163,7 +163,8 @@ class Mechanism {
   struct Closed {
     std::string element;
     std::vector<std::string> by;
-    bool isChosen;  ///< by structure, not by name
+    bool isChosen;              ///< by structure, not by name
+    std::size_t redundant = 0;  ///< rows besides that are assumed to follow from all others
   };
   const std::vector<Closed>& loops() const { return loops_; }
   /// What closures leave out of what they hold, as it holds anyway.

@@ -22,6 +22,7 @@ class Listener final : public Fields {
   }
   void axis(const Word& word, Axis& /*axis*/) override { key(word); }
   void rotations(const Word& word, std::vector<FixedRotation>& /*rotations*/) override { key(word); }
+  void count(const Word& word, std::size_t& /*number*/, std::size_t /*most*/) override { key(word); }
   void number(const Word& word, Expression& /*number*/) override { key(word); }
   void numbers(const Word& word, std::span<Expression> /*numbers*/, std::span<const char* const> /*names*/,
                std::size_t /*least*/) override {

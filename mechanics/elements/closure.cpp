@@ -42,6 +42,11 @@ constexpr const char* dependentMeaning =
     "the "
     "closed position is looked for";
 
+constexpr const char* redundantMeaning =
+    "so many of its rows are assumed to follow from all others, for the numbers' sake, as in linkages that move though "
+    "they hold more than leaves them free: which are left out is found where it starts, and told; samples have to keep "
+    "them. 0 unless given";
+
 }  // namespace
 
 HeldRows Closure::wanted() const {
@@ -64,7 +69,9 @@ void Closure::describe(Fields& f) {
   f.drawsJoint({to, toPoint}, heldAs(as).turns, heldAs(as).slides);
   f.axis({"to_axis", "", "of a `hinge` and a `cylinder`: the same axis in `to`; `\"z\"` unless given"}, toAxis);
   f.closesBetween({from, fromPoint}, {to, toPoint}, wanted(), left);
-  f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, rows().count()});
+  f.count({"redundant", "", redundantMeaning}, redundant, rows().count());
+  f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent,
+                         {from, to, rows().count() - redundant, redundant});
   for (const char* component : components)
     f.measureSolved({std::string("force.") + component, "N", "what it does to `to`, in inertial axes"});
   for (const char* component : components)
@@ -89,15 +96,19 @@ void Closure::assemble(Assembler<S>& a) const {
   if (holds.parallel)
     for (const Vector3<S>& each : besides) rightAngles.emplace_back(each, toAxis.unit<S>());
   const Closing<S>* closing = nullptr;  // where all holds anyway
-  if (holds.count() > 0)
-    closing = &a.template add<Closing<S>>(CarriedPoint<S>{&a.frame(from), a.vector(fromPoint)},
-                                          CarriedPoint<S>{&a.frame(to), a.vector(toPoint)}, std::move(directions),
-                                          std::move(rightAngles), along);
+  if (holds.count() > 0) {
+    auto& added = a.template add<Closing<S>>(CarriedPoint<S>{&a.frame(from), a.vector(fromPoint)},
+                                             CarriedPoint<S>{&a.frame(to), a.vector(toPoint)}, std::move(directions),
+                                             std::move(rightAngles), along);
+    a.closes(added);
+    closing = &added;
+  }
+  const auto bears = [closing] { return closing != nullptr && !closing->multipliers().empty(); };
   for (int i = 0; i < 3; ++i) {
     a.measureSolved(std::string("force.") + components[i],
-                    [closing, i] { return closing == nullptr ? S(0.0) : S(closing->force()[i]); });
+                    [closing, bears, i] { return bears() ? S(closing->force()[i]) : S(0.0); });
     a.measureSolved(std::string("moment.") + components[i],
-                    [closing, i] { return closing == nullptr ? S(0.0) : S(closing->moment()[i]); });
+                    [closing, bears, i] { return bears() ? S(closing->moment()[i]) : S(0.0); });
   }
 }
 
@@ -108,7 +119,8 @@ void RodClosure::describe(Fields& f) {
   f.number({"length", "m", "the distance of the points", true}, length);
   f.drawsLink({from, fromPoint}, {to, toPoint});
   for (const FixedPoint& end : {FixedPoint{from, fromPoint}, FixedPoint{to, toPoint}}) f.drawsJoint(end, 3, 0);
-  f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, 1});
+  f.count({"redundant", "", redundantMeaning}, redundant, 1);
+  f.dependentCoordinates({"dependent", "", dependentMeaning}, dependent, {from, to, 1 - redundant, redundant});
   f.measureSolved({"force", "N", "by which it pushes its ends apart"});
 }
 
@@ -119,9 +131,10 @@ std::vector<Fault> RodClosure::faults(const RangeOf& rangeOf) const {
 
 template <class S>
 void RodClosure::assemble(Assembler<S>& a) const {
-  const auto& rod = a.template add<Rod<S>>(CarriedPoint<S>{&a.frame(from), a.vector(fromPoint)},
-                                           CarriedPoint<S>{&a.frame(to), a.vector(toPoint)}, a.number(length));
-  a.measureSolved("force", [&rod] { return rod.push(); });
+  auto& rod = a.template add<Rod<S>>(CarriedPoint<S>{&a.frame(from), a.vector(fromPoint)},
+                                     CarriedPoint<S>{&a.frame(to), a.vector(toPoint)}, a.number(length));
+  a.closes(rod);
+  a.measureSolved("force", [&rod] { return rod.multipliers().empty() ? S(0.0) : rod.push(); });
 }
 
 GAMUT_ASSEMBLE(RodClosure)

@@ -20,6 +20,7 @@ struct Closure {
   ExpressionVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};  ///< m
   Axis axis = axisZ, toAxis = axisZ;
   std::vector<std::string> dependent;
+  std::size_t redundant = 0;
   std::optional<HeldRows> left = std::nullopt;  ///< of a mechanism's: what of `as` does not hold anyway
 
   void describe(Fields& f);
@@ -44,6 +45,7 @@ struct RodClosure {
   ExpressionVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};  ///< m
   Expression length = 1.0;                                                  ///< m
   std::vector<std::string> dependent;
+  std::size_t redundant = 0;
 
   void describe(Fields& f);
   std::vector<Fault> faults(const RangeOf& rangeOf) const;

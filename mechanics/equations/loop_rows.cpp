@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace gamut {
@@ -60,10 +61,11 @@ ScaledRows scaledRows(const Mechanism& mechanism, System<double>& system) {
   ScaledRows rows{jacobianOfLoops(system), {}};
   Eigen::MatrixXd& jacobian = rows.jacobian;
   const Eigen::Index n = jacobian.cols(), m = jacobian.rows();
+  const auto dependents = static_cast<Eigen::Index>(mechanism.dependents().size());
   const double all = jacobian.allFinite() && m > 0 ? jacobian.cwiseAbs().maxCoeff() : 0.0;
   if (!(all > 0)) return {};
   const std::vector<std::string> states = mechanism.stateNames();
-  for (Eigen::Index j = 0; j < n - m; ++j)
+  for (Eigen::Index j = 0; j < n - dependents; ++j)
     rows.coordinates.push_back(mechanism.coordinateWith(states[mechanism.positions() + static_cast<std::size_t>(j)]));
   for (const std::string& name : mechanism.dependents()) rows.coordinates.push_back(mechanism.coordinateWith(name));
   for (Eigen::Index i = 0; i < m; ++i) {
@@ -167,6 +169,56 @@ NearestClosing nearestClosing(System<double>& system, std::vector<double> at,
     place(at);
   }
   return {std::move(at), {rows.begin(), rows.end()}};
+}
+
+/// By orthogonalisation: rows of constraints without redundant ones first, then whichever is farthest from the others.
+RowChoice rowsToLeaveOut(const Mechanism& mechanism, System<double>& system,
+                         const std::vector<std::size_t>& redundant) {
+  constexpr double nothing = 1e-7;  // of a row's greatest entry
+  Eigen::MatrixXd rest = scaledRows(mechanism, system).jacobian;
+  std::vector<std::size_t> of, place, toKeep;  // of each row, its constraint and its number there; of each constraint
+  std::size_t number = 0;
+  for (const Constraint<double>* constraint : system.chain().constraints()) {
+    const std::size_t rows = constraint->residuals().size();
+    for (std::size_t i = 0; i < rows; ++i) {
+      of.push_back(number);
+      place.push_back(i);
+    }
+    toKeep.push_back(rows - redundant[number++]);
+  }
+  RowChoice choice{std::vector<std::vector<std::size_t>>(redundant.size()), std::vector<std::size_t>(redundant.size()),
+                   static_cast<std::size_t>(rest.rows()) == of.size()};
+  if (!choice.isEnough) return choice;
+  std::vector<char> isKept(of.size(), 0);
+  const auto keep = [&](std::size_t row) {
+    isKept[row] = 1;
+    --toKeep[of[row]];
+    const double size = rest.row(static_cast<Eigen::Index>(row)).norm();
+    if (!(size > nothing)) {
+      choice.isEnough = false;
+      return;
+    }
+    const Eigen::RowVectorXd direction = rest.row(static_cast<Eigen::Index>(row)) / size;
+    rest -= (rest * direction.transpose()) * direction;
+  };
+  for (std::size_t row = 0; row < of.size(); ++row)
+    if (redundant[of[row]] == 0) keep(row);
+  for (;;) {
+    std::optional<std::size_t> farthest;
+    for (std::size_t row = 0; row < of.size(); ++row) {
+      if (isKept[row] != 0 || toKeep[of[row]] == 0) continue;
+      const auto size = [&](std::size_t i) { return rest.row(static_cast<Eigen::Index>(i)).norm(); };
+      if (!farthest || size(row) > size(*farthest)) farthest = row;
+    }
+    if (!farthest) break;
+    keep(*farthest);
+  }
+  for (std::size_t row = 0; row < of.size(); ++row) {
+    if (isKept[row] != 0) continue;
+    choice.leftOut[of[row]].push_back(place[row]);
+    if (rest.row(static_cast<Eigen::Index>(row)).norm() > nothing) ++choice.others[of[row]];
+  }
+  return choice;
 }
 
 /// By elimination of the rows, loop by loop: what is open of later loops is what dependent coordinates of earlier ones

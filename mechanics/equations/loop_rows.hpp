@@ -52,4 +52,14 @@ std::vector<std::string> loopsAlike(const Mechanism& mechanism, System<double>& 
 /// Without those that have an initial rate, strike a rigid end or are `given`. Empty where that closes not all rows.
 DependentsOf firmDependents(const Mechanism& mechanism, System<double>& system, const std::set<std::string>& given);
 
+/// Of constraints of whose rows so many are redundant, one entry each: which to leave out, so that those that are left
+/// are as far from depending on each other as elimination with pivoting finds them at the present positions, where all
+/// rows are held.
+struct RowChoice {
+  std::vector<std::vector<std::size_t>> leftOut;
+  std::vector<std::size_t> others;  ///< of each constraint, rows left out that do not follow from those that are left
+  bool isEnough = true;             ///< false: more rows depend on others than are redundant
+};
+RowChoice rowsToLeaveOut(const Mechanism& mechanism, System<double>& system, const std::vector<std::size_t>& redundant);
+
 }  // namespace gamut

@@ -85,6 +85,8 @@ std::string askedSection(const Report& report) {
   std::string html = uncertainTable(report.results, report.detail.rows);
   if (const std::string& dependence = report.results.dependence; !dependence.empty())
     html += fmt::format("<p class=\"hint\">The quantities: {}.</p>\n", escapeHtml(dependence));
+  if (const std::string& assumptions = report.results.assumptions; !assumptions.empty())
+    html += fmt::format("<p class=\"hint\">Assumed, not proved: {}.</p>\n", escapeHtml(assumptions));
   return html;
 }
 

@@ -15,8 +15,10 @@
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/orientation.hpp"
+#include "mechanics/description/refusal.hpp"
 #include "mechanics/description/words.hpp"
 #include "mechanics/model.hpp"
+#include "studies/assumed_rows.hpp"
 #include "studies/printable.hpp"
 #include "studies/reading/settings_reader.hpp"
 #include "studies/reading/table_reader.hpp"
@@ -32,13 +34,15 @@ bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)
 class MechanismReader {
  public:
   /// `dependents`: of loops that name none, by the element that closes each; others are closed by those that stand
-  /// last.
+  /// last. `redundant`: rows of loops that state none, likewise.
   MechanismReader(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
-                  const std::optional<FilesAtHand>& files, DependentsOf dependents = {})
+                  const std::optional<FilesAtHand>& files, DependentsOf dependents = {},
+                  std::map<std::string, std::size_t> redundant = {})
       : source_(source),
         types_(types),
         atHand_(files),
         dependents_(std::move(dependents)),
+        redundant_(std::move(redundant)),
         section_(source, table, "mechanism", keysOf(described(table.contains("urdf")))) {}
 
   ReadMechanism read() {
@@ -396,6 +400,14 @@ class MechanismReader {
     void rotations(const Word& word, std::vector<FixedRotation>& rotations) override {
       rotations = reader_.rotations(section_, section_, word.key);
     }
+    void count(const Word& word, std::size_t& number, std::size_t most) override {
+      const auto tried = reader_.redundant_.find(section_.text("name"));
+      if (const toml::node* node = section_.find(word.key))
+        number = static_cast<std::size_t>(
+            section_.source().asInteger(*node, section_.nameOf(word.key), 0, static_cast<std::int64_t>(most)));
+      else if (tried != reader_.redundant_.end())
+        number = std::min(tried->second, most);
+    }
     void number(const Word& word, Expression& number) override {
       if (const toml::node* node = given(section_, word))
         number = reader_.number(*node, named(word), section_.nameOf(word.key), word.unit);
@@ -659,6 +671,7 @@ class MechanismReader {
   const std::vector<Described>& types_;
   const std::optional<FilesAtHand>& atHand_;
   const DependentsOf dependents_;
+  const std::map<std::string, std::size_t> redundant_;
   RobotChoices choices_;
   TomlSection section_;
   Mechanism mechanism_;
@@ -706,6 +719,42 @@ TomlSource::Names namesStatedIn(const TomlSource& source) {
 
 namespace {
 
+/// What of redundant rows is assumed, by element; none where the machine does not close.
+std::vector<std::pair<std::string, std::string>> assumptionsIn(const Mechanism& mechanism) {
+  std::vector<std::pair<std::string, std::string>> notes;
+  if (std::ranges::all_of(mechanism.loops(), [](const auto& loop) { return loop.redundant == 0; })) return notes;
+  try {
+    for (const Assumption& assumption : assumptionsOn(mechanism))
+      notes.emplace_back(assumption.element, assumption.sentence + ", is assumed, not proved");
+  } catch (const UnfitPart&) {  // a machine says so
+  }
+  return notes;
+}
+
+/// "`redundant = 3` of 'D', which assumes that …, as it seems": where a single loop that states none would close with
+/// rows that follow from the others; empty where none would.
+std::string seemingRedundancy(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
+                              const std::optional<FilesAtHand>& files) {
+  constexpr std::size_t most = 5;  // rows
+  const toml::array* elements = table["element"].as_array();
+  for (std::size_t i = 0; elements != nullptr && i < elements->size(); ++i) {
+    const toml::table* element = (*elements)[i].as_table();
+    const auto type = element == nullptr ? std::optional<std::string>() : (*element)["type"].value<std::string>();
+    if (!type || (*type != "closure" && *type != "rod") || element->contains("redundant")) continue;
+    const std::string name = (*element)["name"].value_or(std::string());
+    for (std::size_t rows = 1; rows <= most; ++rows) try {
+        const ReadMechanism trial = MechanismReader(source, table, types, files, {}, {{name, rows}}).read();
+        for (const Assumption& assumption : assumptionsOn(trial.mechanism))
+          if (assumption.element == name)
+            return fmt::format("`redundant = {}` of '{}', which assumes, as it seems, {}", rows, name,
+                               assumption.sentence);
+      } catch (const StudyError&) {
+      } catch (const UnfitPart&) {
+      }
+  }
+  return {};
+}
+
 ReadMechanism readWithFirmDependents(const TomlSource& source, const toml::table& table,
                                      const std::vector<Described>& types, const std::optional<FilesAtHand>& files) {
   ReadMechanism read = MechanismReader(source, table, types, files).read();
@@ -727,9 +776,24 @@ ReadMechanism readWithFirmDependents(const TomlSource& source, const toml::table
 
 ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
                             const std::optional<FilesAtHand>& files) {
-  ReadMechanism read = readWithFirmDependents(source, table, types, files);
+  const auto firm = [&] {
+    try {
+      return readWithFirmDependents(source, table, types, files);
+    } catch (const StudyError& error) {
+      const std::string redundancy = seemingRedundancy(source, table, types, files);
+      if (redundancy.empty()) throw;
+      throw StudyError(error.place(), error.problem(), redundancy);
+    }
+  };
+  ReadMechanism read = firm();
+  if (read.mechanism.isClosed() && !startsClosed(read.mechanism))
+    if (const std::string redundancy = seemingRedundancy(source, table, types, files); !redundancy.empty())
+      read.notes.push_back(source.note(*read.places.at(read.mechanism.loops().front().element),
+                                       "the loops do not close as they are; they do with " + redundancy));
   for (const Mechanism::LeftOut& leftOut : read.mechanism.leftOut())
     read.notes.push_back(source.note(*read.places.at(leftOut.element), leftOut.sentence));
+  for (const auto& [element, sentence] : assumptionsIn(read.mechanism))
+    read.notes.push_back(source.note(*read.places.at(element), sentence));
   return read;
 }
 

@@ -21,6 +21,8 @@ std::vector<Field> fieldsOfStudy(Origin& o) {
           {"dependence", &o.dependence, unit::none,
            "how uncertain quantities depend on each other, in words, and whether several distributions are possible; "
            "empty where they are independent"},
+          {"assumptions", &o.assumptions, unit::none,
+           "on which all answers rest, but which cannot be proved; empty where there are none"},
           {"seed", &o.seed, unit::none, "of the samples"},
           {"horizon", &o.horizon, unit::second, "time asked for; 0 where none passes", allowed::finite},
           {"version", &o.version, unit::none, "of Gamut"},

@@ -82,6 +82,7 @@ struct Origin {
   std::vector<OutputInfo> outputs;
   std::string dependence;    ///< of the uncertain quantities, in words, and whether several distributions are
                              ///< possible; empty where they are independent
+  std::string assumptions;   ///< on which all answers rest, but which cannot be proved; empty where there are none
   double horizon = 0;        ///< s
   std::vector<double> time;  ///< output times, s
   Limits limits;

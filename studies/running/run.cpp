@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "analyses/consistency.hpp"
+#include "studies/assumed_rows.hpp"
 #include "studies/printable.hpp"
 #include "studies/running/units.hpp"
 #include "studies/told.hpp"
@@ -46,6 +47,12 @@ std::string dependenceText(const Study& study) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
+std::string assumptionsText(const Study& study) {
+  std::vector<std::string> texts;
+  for (const Assumption& assumption : assumptionsOn(study.mechanism)) texts.push_back(assumption.sentence);
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 /// The part of the results that is known before anything runs. Words as they are read back from a file.
 Results withOrigin(const Run& run) {
   const Study& study = run.study;
@@ -69,6 +76,7 @@ Results withOrigin(const Run& run) {
   origin.horizon = study.horizon;
   origin.time = study.times;
   origin.dependence = dependenceText(study);
+  origin.assumptions = assumptionsText(study);
   for (const UncertainQuantity& q : study.uncertain) {
     const Uncertain& u = q.uncertain;
     origin.uncertain.push_back({u.name, q.quantity, q.unit, u.range.lower(), u.nominal, u.range.upper(),

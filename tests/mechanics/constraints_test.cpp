@@ -26,17 +26,18 @@ class HeldRod final : public Constraint<S> {
   HeldRod(Frame<S>& from, Frame<S>& to, S length, S stabilisation = S(0.0))
       : Constraint<S>(std::move(stabilisation)), from_(from), to_(to), length_(std::move(length)) {}
 
-  std::vector<S> residuals() const override {
+  std::vector<S> allResiduals() const override {
     const Vector3<S> x = chord();
     return {S(0.5) * (x.dot(x) - square(length_))};
   }
-  std::vector<S> rates() const override { return {chord().dot(velocity())}; }
-  std::vector<S> accelerations(MotionLevel level) const override {
+  std::vector<S> allRates() const override { return {chord().dot(velocity())}; }
+  std::vector<S> allAccelerations(MotionLevel level) const override {
     const S linear = chord().dot(to_.R * to_.a - from_.R * from_.a);
     if (level == MotionLevel::acceleration) return {linear};
     const Vector3<S> v = velocity();
     return {linear + v.dot(v)};
   }
+  std::vector<std::string> rowNames() const override { return {"length"}; }
 
  private:
   Vector3<S> chord() const { return to_.positionInInertial() - from_.positionInInertial(); }

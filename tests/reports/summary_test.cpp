@@ -58,11 +58,11 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   const std::string text = jsonSummary(sampleResults(), findVerdict(sampleResults()), {"run.h5", "run.html", 0.0625});
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
-  EXPECT_THAT(keysOf(json), ElementsAre("advice", "alpha_cuts", "cost", "dependence", "derivatives", "distribution",
-                                        "enclosure", "envelope", "equilibria", "excursion", "files", "horizon",
-                                        "integrated", "limits", "outputs", "overestimation", "postures", "reached",
-                                        "requirements", "samples", "sensitivity", "shortfall", "statistics", "stopped",
-                                        "tightness", "verdict", "version", "why", "witness", "workspace"));
+  EXPECT_THAT(keysOf(json), ElementsAre("advice", "alpha_cuts", "assumptions", "cost", "dependence", "derivatives",
+                                        "distribution", "enclosure", "envelope", "equilibria", "excursion", "files",
+                                        "horizon", "integrated", "limits", "outputs", "overestimation", "postures",
+                                        "reached", "requirements", "samples", "sensitivity", "shortfall", "statistics",
+                                        "stopped", "tightness", "verdict", "version", "why", "witness", "workspace"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("advice", "equations", "fuzzy", "interval", "memory", "report",
                                                 "requirements", "stochastic", "total"));

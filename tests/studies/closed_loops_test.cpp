@@ -332,7 +332,7 @@ TEST(ClosedLoopStudy, ChoosesCoordinatesThatHoldFirmlyWhereItStarts) {
 TEST(ClosedLoopStudy, LeavesOutWhatHoldsAnyway) {
   const std::string pinned = fourBarText("1", uncertain({"a", "c"}, "± 0.1 %"));
   EXPECT_THAT(readStudyText(pinned, "s.toml").notes, ::testing::IsEmpty());
-  const Tube expected = enclosed(machineOf(pinned));
+  const Tube byPin = enclosed(machineOf(pinned));
   for (const char* as : {"ball", "hinge", "cylinder"}) {
     const std::string text = replaced(pinned, "as = \"pin\"", std::string("as = \"") + as + "\"");
     const Machine machine = machineOf(text);
@@ -341,14 +341,18 @@ TEST(ClosedLoopStudy, LeavesOutWhatHoldsAnyway) {
     const Tube tube = enclosed(machine);
     ASSERT_EQ(tube.reached(), 1) << tube.why();
     for (std::size_t j = 0; j < 4; ++j)
-      EXPECT_TRUE(isEqual(tube.outputs(tube.reachedTimes() - 1)[j], expected.outputs(expected.reachedTimes() - 1)[j]));
+      EXPECT_TRUE(isEqual(tube.outputs(tube.reachedTimes() - 1)[j], byPin.outputs(byPin.reachedTimes() - 1)[j]));
     Box lengths = lengthsWithin(0);
     lengths[0] = machine.box[4];
     lengths[2] = machine.box[5];
     for (const std::size_t i : {1U, 3U}) lengths[i] = Interval(midpoint(lengths[i]));
     expectEnclosed(tube, lengths, Interval(1.0), 4);
-    EXPECT_THAT(refusalOf(replaced(text, "[[output]]", uncertain({"bc.vector.z"}, "± 1 mm") + "[[output]]")),
-                HasSubstr("'bc.vector.z' is uncertain, but the loop 'C' can be closed for its nominal value alone"));
+    // A cylinder holds nothing along its axis.
+    const std::string besides =
+        refusalOf(replaced(text, "[[output]]", uncertain({"bc.vector.z"}, "± 1 mm") + "[[output]]"));
+    const std::string expected =
+        "'bc.vector.z' is uncertain, but the loop 'C' can be closed for its nominal value alone";
+    EXPECT_THAT(besides, std::string(as) == "cylinder" ? ::testing::Matcher<std::string>("") : HasSubstr(expected));
   }
 }
 
