@@ -7,6 +7,7 @@
 #include "commands/files.hpp"
 #include "python/doors.hpp"
 #include "studies/known_quantities.hpp"
+#include "studies/running/dead_point.hpp"
 #include "studies/running/run.hpp"
 #include "studies/running/tolerance.hpp"
 #include "studies/schema.hpp"
@@ -18,9 +19,22 @@ namespace {
 namespace py = pybind11;
 using namespace py::literals;
 
-std::shared_ptr<Machine> read(const std::string& text, const std::string& name) {
-  const py::gil_scoped_release released;
-  return std::make_shared<Machine>(readStudyText(text, name));
+/// Ends a proof on the way; no std::exception, which the proof might take for its own.
+struct Ended {};
+
+/// The machine, and whether an interrupt came while its loops were proved to close: none then.
+py::tuple read(const std::string& text, const std::string& name, const py::object& progress) {
+  std::shared_ptr<Machine> machine;
+  const bool wasInterrupted = interruptible(progress, [&](const Work& work) {
+    try {
+      machine = std::make_shared<Machine>(readStudyText(text, name), [&](const std::string& task, double fraction) {
+        work.progress(task, fraction);
+        if (*work.cancelled) throw Ended();
+      });
+    } catch (const Ended&) {
+    }
+  });
+  return py::make_tuple(machine, wasInterrupted);
 }
 
 py::list listed(const std::vector<KnownQuantity>& quantities) {
@@ -84,10 +98,16 @@ void bindStudies(py::module_& module) {
   module.attr("__version__") = version();
   module.def("schema", [] { return studySchema(); });
   module.def("text_of", textOfStudy, "path"_a);
-  module.def("read", read, "text"_a, "name"_a);
+  module.def("read", read, "text"_a, "name"_a, "progress"_a);
   module.def("quantities", quantities, "text"_a, "name"_a);
   py::class_<Machine, std::shared_ptr<Machine>>(module, "Machine")
-      .def_property_readonly("notes", [](const Machine& m) { return m.study.notes; })
+      .def("notes",
+           [](const Machine& m) {
+             const py::gil_scoped_release released;
+             std::vector<std::string> notes = m.study.notes;
+             if (std::string note = noteOfDeadPoint(m.study); !note.empty()) notes.push_back(std::move(note));
+             return notes;
+           })
       .def("run", run, "seed"_a, "samples"_a, "jobs"_a, "time_limit"_a, "memory_limit"_a, "progress"_a)
       .def("tolerance", tolerance, "jobs"_a, "time_limit"_a, "progress"_a);
 }

@@ -126,7 +126,7 @@ class Study:
         try:
             data = tomllib.loads(self._text)
         except tomllib.TOMLDecodeError:
-            _gamut.read(self._text, self._name)  # says where and what
+            _gamut.read(self._text, self._name, None)  # says where and what
             raise
         self._data = {k: _taken(k, v) if k in _SECTIONS and isinstance(v, (dict, list)) else v for k, v in data.items()}
 
@@ -137,15 +137,18 @@ class Study:
             return self._text
         return toml.dumps(stated)
 
-    def _read(self):
+    def _read(self, show=None):
         text = self.to_toml()
         if self._machine[0] != text:
-            self._machine = (text, _gamut.read(text, self._name))
+            machine, was_interrupted = _gamut.read(text, self._name, show)
+            if was_interrupted:
+                raise Interrupted()
+            self._machine = (text, machine)
         return self._machine[1]
 
     def validate(self):
         """Reads and checks all as for a run; returns notes on what may be a mistake. Throws StudyError."""
-        return list(self._read().notes)
+        return self._read().notes()
 
     def quantities(self):
         """What of the mechanism can be uncertain, and what can be an output. The rest of the study may be missing."""
@@ -162,7 +165,7 @@ class Study:
         """
         show, wipe = told(progress)
         try:
-            held, was_interrupted = self._read().run(seed, samples, jobs, time_limit, memory_limit, show)
+            held, was_interrupted = self._read(show).run(seed, samples, jobs, time_limit, memory_limit, show)
         finally:
             wipe()
         if was_interrupted:
@@ -175,7 +178,7 @@ class Study:
 
         show, wipe = told(progress)
         try:
-            nominal, together, alone, was_interrupted = self._read().tolerance(jobs, time_limit, show)
+            nominal, together, alone, was_interrupted = self._read(show).tolerance(jobs, time_limit, show)
         finally:
             wipe()
         found = Tolerances(nominal, together, alone)
