@@ -93,6 +93,7 @@ class Searcher {
 
   AllRoots find() {
     parts_.push_back({widest_});
+    adopt(0);
     put({region_, 0, 0, 0});
     while (std::optional<Cell> cell = next()) {
       const bool isCancelled = search_.cancelled != nullptr && search_.cancelled->load(std::memory_order_relaxed);
@@ -123,6 +124,7 @@ class Searcher {
   struct ParameterPart {
     Box box;
     std::size_t whole = none, lowerHalf = none;  // what it is half of; the upper half is the next
+    bool isKnown = false;                        // whether one of these, or of what it is half of, was known before
     std::vector<std::size_t> proofs = {};        // for all of it
     std::vector<Failure> failures = {};
   };
@@ -249,6 +251,24 @@ class Searcher {
     return scores;
   }
 
+  /// The root that is known for a part of the parameters, unless it is for what that is half of.
+  void adopt(std::size_t part) {
+    const std::size_t whole = parts_[part].whole;
+    if (!search_.known || (whole != none && parts_[whole].isKnown)) {
+      parts_[part].isKnown = whole != none && parts_[whole].isKnown;
+      return;
+    }
+    const Box root = search_.known(allParameters(parts_[part].box));
+    if (root.empty()) return;
+    const std::size_t before = equations_.evaluations();
+    std::optional<RootEquations::Proof> proof = equations_.adopt(root, parts_[part].box);
+    proofCells_ += equations_.evaluations() - before;
+    if (!proof) return;
+    parts_[part].isKnown = true;
+    parts_[part].proofs.push_back(proofs_.size());
+    proofs_.push_back({std::move(*proof), parts_[part].box, part});
+  }
+
   enum class Attempt { proved, failed, parameters };
 
   /// About an approximate root in or near the cell, if it is not known already.
@@ -354,6 +374,7 @@ class Searcher {
       for (const Interval& half : {lower, upper}) {
         parts_.push_back({whole, cell.q});
         parts_.back().box[l] = half;
+        adopt(parts_.size() - 1);
       }
     }
     const std::size_t lower = parts_[cell.q].lowerHalf;

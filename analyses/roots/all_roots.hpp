@@ -37,6 +37,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "scalars/interval.hpp"
@@ -86,6 +87,9 @@ struct RootSearch {
   Interval time = 0.0;                   ///< for all t of it
   const Program* also = nullptr;  ///< of the same unknowns and parameters: roots are meant where all of it is zero;
                                   ///< it takes what is searched, not what is proved, so that others may be found too
+  /// A box in which there is a root for each of these parameters, a part of all: of a family that is proved already.
+  /// Where it is alone is found, and not looked at again; empty: none is known.
+  std::function<Box(const Box& parameters)> known = {};
   const std::atomic<bool>* cancelled = nullptr;
 };
 

@@ -480,6 +480,25 @@ std::optional<RootEquations::Proof> RootEquations::prove(Course& course) {
   return {};
 }
 
+/// F(·, p) is one-to-one where Y J is near to 1 (all_roots.hpp): what holds the known root, and where that is so, holds
+/// no other.
+std::optional<RootEquations::Proof> RootEquations::adopt(const Box& root, const Box& q) {
+  const Box centre = middlesOf(root), middle = middlesOf(q);
+  if (!consistency_.isTameOn(joint(centre, middle))) return {};
+  evaluateSlopes(centre, middle);
+  const std::optional<Matrix> y = inverseOfMiddle();
+  if (!y || !consistency_.isTameOn(joint(root, q))) return {};
+  evaluateSlopes(root, q);
+  Box offset;
+  std::vector<double> r;
+  for (int i = 0; i < n_; ++i) {
+    offset.push_back(root[i] - centre[i]);
+    r.push_back(std::max({magnitude(offset[i]), 0x1p-50 * magnitude(root[i]), 0x1p-60 * units_[i]}));
+  }
+  if (!contracts(preconditioned(*y), r)) return {};
+  return finished({root, root, centre, middle, std::move(offset), Matrix(n_ * (size_ - n_), 0.0)}, *y, centre, r, q);
+}
+
 Box RootEquations::Proof::rootAt(const Box& q) const {
   Box at;
   for (std::size_t i = 0; i < root.size(); ++i) {

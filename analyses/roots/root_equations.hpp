@@ -54,6 +54,9 @@ class RootEquations {
   /// One root for each q, near c.
   std::optional<Proof> prove(const std::vector<double>& c, const Box& q);
 
+  /// The same of a root that is known to be in a box for each q.
+  std::optional<Proof> adopt(const Box& root, const Box& q);
+
   /// Evaluations of all derivatives so far.
   std::size_t evaluations() const { return evaluations_; }
 

@@ -10,7 +10,9 @@
 #include <optional>
 #include <utility>
 
+#include "analyses/flow/flow.hpp"
 #include "analyses/roots/all_roots.hpp"
+#include "mechanics/rest.hpp"
 #include "mechanics/rest_equations.hpp"
 #include "scalars/evaluation/evaluate.hpp"
 #include "studies/analyses/found_positions.hpp"
@@ -18,6 +20,7 @@
 #include "studies/coordinate_region.hpp"
 #include "studies/running/context.hpp"
 #include "studies/settings.hpp"
+#include "studies/told.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -61,6 +64,39 @@ Stability stabilityOf(const RestEquations& equations, const RootPart& part) {
       negativeEigenvalues(evaluate<Interval>(equations.stiffness, root, middle, Interval(0.0)), n);
   return !negatives ? Stability::unknown : *negatives == loops ? Stability::stable : Stability::unstable;
 }
+
+bool isWithin(const Box& a, const Box& b) {
+  return std::ranges::equal(a, b, [](const Interval& x, const Interval& y) { return isSubset(x, y); });
+}
+
+bool meets(const Box& a, const Box& b) {
+  return std::ranges::equal(a, b, [](const Interval& x, const Interval& y) { return !isDisjoint(x, y); });
+}
+
+/// The position that the machine is proved to rest in, as a function of its free parameters (mechanics/rest.hpp).
+class ProvedPosition {
+ public:
+  explicit ProvedPosition(const Machine& machine)
+      : position_(machine.rest->position()),
+        parameters_(machine.freeParameters.size()),
+        open_(machine.box.begin(), machine.box.begin() + position_.parameters() - static_cast<int>(parameters_)) {}
+
+  /// Of these parameters.
+  Box at(const Box& parameters) const {
+    Box numbers = parameters;
+    std::vector<int> narrow;
+    for (const Interval& each : open_) {
+      narrow.push_back(static_cast<int>(numbers.size()));
+      numbers.push_back(each);
+    }
+    return encloseImage(position_, 0.0, numbers, {}, -1, nullptr, narrow)[0];
+  }
+
+ private:
+  const Program& position_;
+  std::size_t parameters_;
+  Box open_;
+};
 
 class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, EquilibriaResult> {
  public:
@@ -114,9 +150,13 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
     region.insert(region.end(), equations.multipliers.begin(), equations.multipliers.end());
     RootSearch search;
     search.cancelled = run.watch.stop();
-    AllRoots found =
-        allRoots(equations.roots, region,
-                 {machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end()}, search);
+    const Box parameters(machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end());
+    std::optional<ProvedPosition> proved;  // with loops their multipliers are others
+    if (!mechanism.isClosed()) proved.emplace(machine);
+    std::size_t tries = 256;  // for parts of the parameters
+    if (proved) search.known = [&](const Box& part) { return tries > 0 ? (--tries, proved->at(part)) : Box(); };
+    AllRoots found = allRoots(equations.roots, region, parameters, search);
+    if (proved) take(*proved, region, parameters, found);
     result.isComplete = found.isComplete();
     result.open = static_cast<std::int64_t>(found.undecided.size() + found.border.size() + found.partial.size());
     std::ranges::sort(found.families, {}, [](const RootBranch& family) {
@@ -133,12 +173,44 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
       }
       result.stability.push_back(static_cast<std::int64_t>(stabilityOf(equations, found.families[k].parts.front())));
     }
-    if (!result.isComplete)
-      result.why = fmt::format("{} of the region {} not settled", countText(result.open, "part"),
-                               result.open == 1 ? "is" : "are");
+    if (result.isComplete) return;
+    result.why =
+        fmt::format("{} of the region {} not settled", countText(result.open, "part"), result.open == 1 ? "is" : "are");
+    if (proved) result.why += becauseItMoves(run.study, names, proved->at(parameters), region);
   }
 
  private:
+  /// The proved position is one of those that are found, unless the search came to no proof that it is alone.
+  static void take(const ProvedPosition& proved, const Box& region, const Box& parameters, AllRoots& found) {
+    const Box root = proved.at(parameters);
+    Box middle;
+    for (const Interval& each : parameters) middle.emplace_back(midpoint(each));
+    const Box thin = proved.at(middle);
+    if (!isWithin(root, region)) return;
+    for (const auto* list : {&found.families, &found.border, &found.partial})
+      for (const RootBranch& branch : *list)
+        for (const RootPart& part : branch.parts)
+          if (isWithin(middle, part.parameters) && meets(thin, part.root)) return;
+    found.families.push_back({root, {}, {{parameters, root, {}}}});
+  }
+
+  /// Where weights and springs nearly balance, little moves much.
+  static std::string becauseItMoves(const Study& study, const std::vector<std::string>& names, const Box& root,
+                                    const Box& region) {
+    constexpr double much = 0x1p-5;  // of what is looked at
+    std::size_t most = 0;
+    const auto share = [&](std::size_t i) { return width(root[i]) / width(region[i]); };
+    for (std::size_t i = 1; i < names.size(); ++i)
+      if (share(i) > share(most)) most = i;
+    if (!(share(most) > much)) return {};
+    const std::string own = unitOf(study.mechanism.coordinates().find(names[most])->kind);
+    const Told told(own, study.unitTold(names[most], own));
+    return fmt::format(
+        ": one that is proved for all values moves by {} of {} with them, so nearly do its forces balance; narrower "
+        "intervals settle more",
+        inUnit(numberText(told.of(width(root[most])), 3), told.unit()), names[most]);
+  }
+
   std::optional<double> angles_, displacements_;
   std::string angleUnit_, displacementUnit_;
 };

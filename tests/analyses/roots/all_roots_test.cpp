@@ -740,5 +740,47 @@ TEST(AllRoots, RefusesWhatDoesNotFit) {
   refuses(record<2>([](const auto& x, const auto& y) { return x + y; }), Box(2, Interval(0, 1)), {});
 }
 
+/// e^x - 1 = p + y, y = p/4: where p is from -0.4 to 0.6, x is known from elsewhere.
+TEST(AllRoots, TakeOneThatIsKnownForAllParameters) {
+  const Program f = record(2, 1, 2, [](auto, const auto& x, const auto& p, auto& y) {
+    y[0] = exp(x[0]) - 1.0 - p[0] - x[1];
+    y[1] = x[1] - 0.25 * p[0];
+  });
+  const Box region{Interval(-2, 2), Interval(-2, 2)}, parameters{Interval(-0.4, 0.6)};
+  std::size_t asked = 0;
+  RootSearch search;
+  search.known = [&](const Box& part) {
+    ++asked;
+    return Box{log(Interval(1.0) + Interval(1.25) * part[0]), Interval(0.25) * part[0]};
+  };
+  const AllRoots found = allRoots(f, region, parameters, search), unaided = allRoots(f, region, parameters);
+  ASSERT_TRUE(found.isComplete());
+  ASSERT_EQ(found.families.size(), 1U);
+  ASSERT_EQ(unaided.families.size(), 1U);
+  EXPECT_GE(asked, 1U);
+  EXPECT_LE(found.cells, unaided.cells);
+  for (int k = 0; k <= 16; ++k) {
+    const Number p = Number(-0.4) + Number(k) / 16;
+    EXPECT_TRUE(holds(found.families[0].root, Point{log(1 + Number(1.25) * p), Number(0.25) * p})) << k;
+    EXPECT_TRUE(holds(found.families[0].alone, Point{log(1 + Number(1.25) * p), Number(0.25) * p})) << k;
+  }
+}
+
+/// A known root hides no other: x² = p has two.
+TEST(AllRoots, FindOthersBesideOneThatIsKnown) {
+  const Program f = record(1, 1, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = sqr(x[0]) - p[0]; });
+  const Box region{Interval(-3, 3)}, parameters{Interval(0.5, 2)};
+  RootSearch search;
+  search.known = [](const Box& part) { return Box{sqrt(part[0])}; };
+  const AllRoots found = allRoots(f, region, parameters, search);
+  ASSERT_TRUE(found.isComplete());
+  ASSERT_EQ(found.families.size(), 2U);
+  for (int k = 0; k <= 16; ++k) {
+    const Number p = Number(0.5) + Number(1.5) * k / 16;
+    EXPECT_TRUE(holds(found.families[0].root, Point{-sqrt(p)})) << k;
+    EXPECT_TRUE(holds(found.families[1].root, Point{sqrt(p)})) << k;
+  }
+}
+
 }  // namespace
 }  // namespace gamut
