@@ -1,6 +1,7 @@
 // Loads of a motion that is given, from the study file to the verdict: closed formulas, all corners of the box, tables.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -292,6 +293,67 @@ TEST(InverseDynamics, SaysWhatIsWrongWithATable) {
   std::string many = "t,hip\n";
   for (int i = 0; i < 1001; ++i) many += std::to_string(i) + ",0\n";
   EXPECT_EQ(with(many), path + ":1002:1: the table has more than 1000 rows; expected fewer rows");
+}
+
+std::string element(const std::string& type, const std::string& name, const std::string& keys) {
+  return "[[mechanism.element]]\ntype = \"" + type + "\"\nname = \"" + name + "\"\n" + keys + "\n";
+}
+
+/// Both cranks are driven, and turn as often as the horizon lets them.
+std::string fiveBar(const std::string& step) {
+  const auto hinge = [](const std::string& name, const std::string& from, const std::string& to,
+                        const std::string& initial) {
+    return element("revolute", name, "from = \"" + from + "\"\nto = \"" + to + "\"\naxis = \"z\"\n" + initial);
+  };
+  const auto link = [](const std::string& from, const std::string& to, const std::string& length) {
+    return element("link", from + to,
+                   "from = \"" + from + "\"\nto = \"" + to + "\"\nvector = [\"" + length + "\", 0, 0]");
+  };
+  const auto bar = [&](const std::string& name, const std::string& joint, const std::string& tip,
+                       const std::string& length) {
+    return element("mass", name,
+                   "at = \"" + joint + "\"\nmass = 0.7\ncentre = [\"" + length +
+                       "/2\", 0, 0]\ninertia = "
+                       "[\"0.002\", \"0.002\", \"0.002\"]") +
+           link(joint, tip, length);
+  };
+  const auto drive = [](const std::string& name, const std::string& joint, const std::string& position) {
+    return element("drive", name, "joint = \"" + joint + "\"\nposition = \"" + position + "\"");
+  };
+  std::string text =
+      "[study]\nanalysis = \"inverse-dynamics\"\nhorizon = 1\noutput_step = " + step +
+      "\ncompare = [\"interval\"]\n[mechanism]\ngravity = [0, \"-9.81\", 0]\nparameters = { a = \"0.1 m\", "
+      "b = \"0.5 m\", c = \"0.5 m\", d = \"0.12 m\", e = \"0.3 m\" }\n" +
+      hinge("A", "inertial", "K1", "") + bar("left crank", "K1", "P1", "a") +
+      hinge("B", "P1", "K2", "initial = { angle = \"-60 deg\" }") + bar("left rod", "K2", "T1", "b") +
+      link("inertial", "Q", "e") + hinge("D", "Q", "K3", "") + bar("right crank", "K3", "P2", "d") +
+      hinge("C", "P2", "K4", "initial = { angle = \"60 deg\" }") + bar("right rod", "K4", "T2", "c") +
+      drive("left", "A", "1 rad + 6.283 rad/s*t") + drive("right", "D", "1.1 rad + 9 rad/s*t") +
+      element("closure", "tool", "as = \"pin\"\nfrom = \"T1\"\nto = \"T2\"");
+  for (const char* length : {"a", "b", "c", "d", "e"})
+    text += std::string("[[uncertain]]\nquantity = \"") + length + "\"\ninterval = \"± 1 %\"\n";
+  for (const char* output : {"left.force", "right.force", "tool.force.x", "A.reaction.force.y"})
+    text += std::string("[[output]]\nquantity = \"") + output + "\"\n";
+  return text;
+}
+
+/// Between output times that are far apart, against bounds between close ones.
+TEST(InverseDynamics, OfAFiveBarIsBoundedTightlyBetweenOutputTimes) {
+  const Results far = run(readStudyText(fiveBar("1"), "s.toml"), {}),
+                near = run(readStudyText(fiveBar("0.05"), "s.toml"), {});
+  ASSERT_EQ(far.interval.reached, 1);
+  ASSERT_EQ(near.interval.reached, 1);
+  const Bounds &whole = far.interval.over, &parts = near.interval.over;
+  for (std::size_t k = 0; k < far.outputs.size(); ++k) {
+    double lower = parts.lower(1, k), upper = parts.upper(1, k);
+    for (std::size_t i = 2; i < near.time.size(); ++i) {
+      lower = std::min(lower, parts.lower(i, k));
+      upper = std::max(upper, parts.upper(i, k));
+    }
+    EXPECT_LE(whole.upper(1, k) - whole.lower(1, k), 1.1 * (upper - lower)) << far.outputs[k].name;
+    EXPECT_LE(lower, near.interval.at.lower(10, k)) << far.outputs[k].name;
+    EXPECT_LE(near.interval.at.upper(10, k), upper) << far.outputs[k].name;
+  }
 }
 
 }  // namespace
