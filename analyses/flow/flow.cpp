@@ -251,7 +251,7 @@ Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, bool may
   auto [tube, isDone] = within(
       {.limit = std::min(firstShare * budget.limit, mostAtFirst), .mostPieces = mostPiecesAtFirst}, plain, false);
   // What jumps at surfaces is loose whatever is told: of what comes to a jump nothing is measured.
-  const bool isLoose = own.starts.outputs() > plain.starts.outputs() && (own.jumps || !tube.shortfall().empty());
+  const bool isLoose = own.starts.outputs() > plain.starts.outputs();
   if (isCancelled() || (isDone && tube.reached() == horizon && !isLoose)) return std::move(tube);
   bool isWhole = false;
   if (tube.reached() < horizon || isLoose) {
@@ -331,10 +331,9 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   const auto rest = [&](double share) { return FlowBudget{share * budget.left()}; };
   // Of more quantities than are bisected for tightness a run without surfaces costs little, and may come farther.
   constexpr int many = 8;
-  if (mayPass && bySurfaces && hasSymbols && (!surfaces->jumps || symbols > many))
-    return staged(formulation, *surfaces, rest(1));
+  if (mayPass && bySurfaces && symbols > many) return staged(formulation, *surfaces, rest(1));
   const FlowFormulation& own = hasClock ? *parts_->withClock : formulation;
-  if (mayPass && bySurfaces && surfaces->jumps) {  // what is not linear costs all there: with states from the start on
+  if (mayPass && bySurfaces) {  // what is not linear costs all there: with states from the start on
     const bool isFirst = isDefined(parts_->bySurfaces);  // not if arguments are of time alone, which only a clock moves
     constexpr double most = 0.75;  // with many of them, one without may be all that comes to the horizon
     Tube tube = staged(isFirst ? *parts_->bySurfaces : formulation, *surfaces, rest(most));

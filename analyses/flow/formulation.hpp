@@ -29,7 +29,6 @@ struct FlowFormulation {
   std::vector<VaryingParameter> inputs;
   bool hasClock = false;  // the state behind them
   Program starts{};       // of further states, the last: where each starts, as a function of all others and parameters
-  bool jumps = false;     // at the zero of one of these
 
   FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying, Program besides);
   /// With a state for each input of bounded rate.

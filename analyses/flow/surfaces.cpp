@@ -40,12 +40,12 @@ Dependence dependenceOf(const Program& f) {
   return result;
 }
 
-/// Nodes of `all` that are such arguments of signs and absolute values among `nodes`.
+/// Nodes of `all` that are such arguments of signs among `nodes`.
 std::vector<int> argumentsAmong(const Program& all, const std::vector<int>& nodes) {
   const Dependence on = dependenceOf(all);
   std::vector<int> arguments;
   for (const int node : nodes) {
-    if (isSmooth(all.nodes()[node].op)) continue;
+    if (all.nodes()[node].op != Op::sign) continue;
     const int u = all.nodes()[node].a;
     if (on.moves[u] != 0 && on.bends[u] == 0 && std::ranges::find(arguments, u) == arguments.end() &&
         !linearFormOf(all, u))
@@ -102,10 +102,6 @@ std::optional<FlowFormulation> withSurfaces(const FlowFormulation& of) {
   result.states = of.states;
   result.hasClock = of.hasClock;
   result.starts = recorder.finish(chosen(plain, arguments));
-  result.jumps = std::ranges::any_of(ofMotion, [&](int node) {
-    const Node& jump = all.nodes()[node];
-    return jump.op == Op::sign && std::ranges::find(arguments, jump.a) != arguments.end();
-  });
   return result;
 }
 

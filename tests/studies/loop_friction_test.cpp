@@ -305,6 +305,31 @@ TEST(LoopFriction, IsEnclosedForAllItsValues) {
   }
 }
 
+/// Joints turn back five times, twice with the crank: all of the set at once.
+TEST(LoopFriction, PassesReversalsInOnePiece) {
+  const Machine machine(
+      readStudyText(fourBarText("2",
+                                friction("B", "0.3 N m") + friction("D", "0.3 N m") +
+                                    uncertain("friction_B.coulomb", "± 5 %") + uncertain("friction_D.coulomb", "± 5 %"),
+                                "angle = 1, rate = \"-0.5\""),
+                    "s.toml"));
+  ASSERT_EQ(machine.freeParameters, (std::vector<std::string>{"friction_B.coulomb", "friction_D.coulomb"}));
+  const Tube tube = enclosed(machine);
+  ASSERT_EQ(tube.reached(), 2) << tube.why();
+  EXPECT_LE(tube.tightness(), 1.05);
+  EXPECT_LE(tube.pieces(), 2);
+  const Box values(machine.box.begin() + machine.states, machine.box.end());
+  testing::Points points;
+  for (int k = 0; k < 4; ++k) {
+    const Vector p = k % 2 == 0 ? points.corner(values) : points.inside(values);
+    Linkage linkage;
+    linkage.friction = {0, p[0], p[1]};
+    expectEnclosed(tube, linkage(1, Precise("-0.5"), tube.times(), 32));
+    EXPECT_GE(linkage.turns, 2);
+    EXPECT_GE(linkage.kinks, 3);
+  }
+}
+
 /// Forces of friction itself and what the pin bears, held and moving, in samples as in enclosures.
 TEST(LoopFriction, IsTheSameInSamples) {
   for (const char* start : {"angle = 1, rate = 4", "angle = 1, rate = 0"}) {

@@ -93,6 +93,51 @@ Box FlowStepper::boxWithin(const std::vector<double>& reach) const {
   return box;
 }
 
+/// A kink's argument at the step's start; of one that is not linear, what has been found.
+Interval FlowStepper::kinkAtStart(const FlowSet& set, std::size_t kink, const Interval& found) const {
+  return kinks_->isStraight(kink) ? argumentOf(set, kinks_->form(kink), total_, &monomials()) : found;
+}
+
+/// Of kinks that are not linear, and that the tube that was bounded last may reach, what polynomials tell besides
+/// intervals; nothing is told of others that the step's own bounds know to be on one side.
+void FlowStepper::boundCurves(const FlowSet& set, double h, std::vector<Interval>& u, std::vector<JumpBound>& bounds,
+                              std::vector<JumpBound>& atStart) {
+  const std::vector<std::size_t>& curved = kinks_->curved();
+  const auto isMet = [&](std::size_t k) {
+    const bool isAssumed = !assumed_.kinkSides.empty() && assumed_.kinkSides[k] != 0;
+    return isAssumed || series_.kinks().argument(series_.kinks()[kinks_->node(k)].argument).reached > 0;
+  };
+  for (const std::size_t k : curved)
+    if (!isMet(k)) bounds[k] = atStart[k] = {};
+  if (std::ranges::none_of(curved, isMet)) return;
+  if (!curves_)
+    curves_ = std::make_unique<AlongStep>(kinks_->curvesAlong(own_ ? own_->jumps().given : kinks_->f()),
+                                          series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
+  std::vector<Interval> signs;
+  if (own_)
+    for (const JumpBound& bound : sidedBounds()) signs.push_back(bound.sign);
+  takeKinkSides(*curves_, assumed_.passingFrom);
+  if (!curves_->load(series_, set.t, h0_, h / h0_, set.parameters, signs, withLow(y_))) return;
+  const auto meet = [](Interval& known, const Interval& also) {
+    if (const Interval both = intersection(known, also); !isEmpty(both)) known = both;
+  };
+  for (std::size_t j = 0; j < curved.size(); ++j) {
+    const std::size_t k = curved[j];
+    if (!isMet(k)) continue;
+    const int argument = static_cast<int>(j), rate = static_cast<int>(curved.size() + j);
+    const Interval first = curves_->over(argument, 0, 0), rateAtFirst = curves_->over(rate, 0, 0);
+    meet(kinkRates_[k], curves_->over(rate, 0, h / h0_));
+    meet(u[k], curves_->over(argument, 0, h / h0_));
+    bounds[k].over = u[k];
+    meet(bounds[k].start, first);
+    meet(atStart[k].start, first);
+    meet(atStart[k].over, first);
+    meet(atStart[k].up, rateAtFirst);
+    atStart[k].down = atStart[k].up;
+    bounds[k].up = bounds[k].down = kinkRates_[k];
+  }
+}
+
 /// Whether a kink that was taken to be on one side may be met. On their side before any has left it, solutions are
 /// those of the step, which do not. Rates are those of the step's own motion: of solutions that a release lets go they
 /// say nothing.
@@ -115,8 +160,10 @@ FlowStepper::Look FlowStepper::passKinks(const std::vector<JumpBound>& bounds, d
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
     if (k == assumed_.passing || (!assumed_.kinkSides.empty() && assumed_.kinkSides[k] != 0)) continue;
     // Those that move away stay on their side, or do not come so far.
-    const Interval over = bounds[k].start + Interval(0.0, h) * kinkRates_[k];
-    if (!contains(bounds[k].over, 0.0) || contains(bounds[k].start, 0.0) || !isCommon(over)) continue;
+    const bool isStraight = kinks_->isStraight(k);
+    Interval over = bounds[k].start + Interval(0.0, h) * kinkRates_[k];
+    if (!isStraight) over = intersection(over, bounds[k].over);
+    if ((isStraight && !contains(bounds[k].over, 0.0)) || contains(bounds[k].start, 0.0) || !isCommon(over)) continue;
     if (!contains(over, 0.0)) {
       if (!series_.kinks().giveSide(kinks_->node(k), over.lower() > 0 ? 1 : -1)) continue;
       assumed_.givenAt = h;
@@ -124,7 +171,7 @@ FlowStepper::Look FlowStepper::passKinks(const std::vector<JumpBound>& bounds, d
       continue;
     }
     const auto crossing = bounds[k].crossing();
-    const bool passes = crossing && (crossing->moment.upper() <= h || h >= left);
+    const bool passes = isStraight && crossing && (crossing->moment.upper() <= h || h >= left);
     // In a longer step, or intervals do not tell.
     if ((!passes || stops_) && assumed_.passing == none && !turn_ && mayPassAsTurn(k)) {
       assumed_.passing = k;
@@ -165,11 +212,12 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
   kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
   std::vector<JumpBound> bounds(u.size()), atStart(u.size());
   for (std::size_t k = 0; k < u.size(); ++k) {
-    atStart[k].start = atStart[k].over = bounds[k].start = argumentOf(set, kinks_->form(k), total_, &monomials());
+    atStart[k].start = atStart[k].over = bounds[k].start = kinkAtStart(set, k, uAtStart[k]);
     atStart[k].up = atStart[k].down = rates[k];
     bounds[k].over = u[k];
     bounds[k].up = bounds[k].down = kinkRates_[k];
   }
+  if (kinks_->hasCurved()) boundCurves(set, h, u, bounds, atStart);
   if (leavesKinkSides(atStart, u, h)) return Look::unsided;
   for (std::size_t k = 0; k < assumed_.kinkSides.size(); ++k)
     if (k == assumed_.passing || assumed_.kinkSides[k] != 0) bounds[k] = atStart[k] = {};

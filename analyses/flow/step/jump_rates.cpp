@@ -80,8 +80,8 @@ AlongStep::AlongStep(const Program& g, std::shared_ptr<const Monomials> monomial
       series_(g, g.outputs(), std::move(monomials), 0, order + 1, false, cancelled),
       timeKinks_(g, length, resolution) {
   for (std::size_t i = 0; i < g.nodes().size(); ++i)
-    if (g.nodes()[i].op == Op::abs)
-      if (auto form = linearFormOf(g, g.nodes()[i].a)) kinks_.emplace_back(static_cast<int>(i), std::move(*form));
+    if (g.nodes()[i].op == Op::abs) kinks_.emplace_back(static_cast<int>(i), linearFormOf(g, g.nodes()[i].a));
+  if (!kinks_.empty()) g_ = g;
 }
 
 JumpRates::JumpRates(const FlowJumps& jumps, std::shared_ptr<const Monomials> monomials, int order, double length,
@@ -119,10 +119,18 @@ void AlongStep::compute(double t0, double scale, double theta, const std::vector
   for (std::size_t i = 0; i < all.size(); ++i) series_.setParameter(static_cast<int>(i), all[i]);
   series_.kinks().forgetCrossings();
   timeKinks_.giveSides(all, t0, t0 + theta * scale, series_);
-  for (const auto& [node, form] : kinks_)
-    for (const auto& [u, side] : sides_)
-      if (isSameForm(form, *u)) series_.kinks().giveSide(node, side);
+  for (const auto& [u, side] : sides_)
+    for (const int node : kinksOf(*u)) series_.kinks().giveSide(node, side);
   series_.compute(t0, scale);
+}
+
+/// The nodes |u|.
+const std::vector<int>& AlongStep::kinksOf(const KinkArgument& u) {
+  const auto [place, isNew] = kinksOfTaken_.try_emplace(&u);
+  for (const auto& [node, form] : kinks_)
+    if (isNew && (form ? u.form && isSameForm(*form, *u.form) : isArgument(u, *g_, g_->nodes()[node].a)))
+      place->second.push_back(node);
+  return place->second;
 }
 
 bool AlongStep::isBounded(const std::vector<double>& tube) {

@@ -3,14 +3,16 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "analyses/flow/series/polynomial_series.hpp"
 #include "analyses/flow/step/jumps.hpp"
+#include "analyses/flow/step/kink_argument.hpp"
 #include "analyses/flow/step/time_kinks.hpp"
-#include "scalars/program/linear_form.hpp"
 
 namespace gamut {
 
@@ -23,7 +25,7 @@ class AlongStep {
             const std::atomic<bool>* cancelled);
 
   /// From now on these are taken to be on these sides (1, -1) of zero: |u| is ±u wherever they are. They must live on.
-  void takeSides(std::vector<std::pair<const LinearForm*, double>> sides) { sides_ = std::move(sides); }
+  void takeSides(std::vector<std::pair<const KinkArgument*, double>> sides) { sides_ = std::move(sides); }
   /// Composes it with the step's `states`, x̃(σ, ξ) for σ = (t - t0)/scale in [0, θ], |x - x̃| ≤ tube. Signs are anything
   /// in `signs`. False if nothing could be proved.
   bool load(const PolynomialSeries& states, double t0, double scale, double theta,
@@ -54,8 +56,11 @@ class AlongStep {
   int orders_;
   PolynomialSeries series_;
   TimeKinks timeKinks_;
-  std::vector<std::pair<int, LinearForm>> kinks_;  // |u|, u
-  std::vector<std::pair<const LinearForm*, double>> sides_;
+  const std::vector<int>& kinksOf(const KinkArgument& u);
+  std::vector<std::pair<int, std::optional<LinearForm>>> kinks_;  // |u|, u
+  std::optional<Program> g_;                                      // if there are any
+  std::map<const KinkArgument*, std::vector<int>> kinksOfTaken_;  // of arguments that sides were taken of
+  std::vector<std::pair<const KinkArgument*, double>> sides_;
   double theta_ = 0;
 };
 

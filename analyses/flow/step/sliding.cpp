@@ -76,6 +76,7 @@ void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vecto
     return std::make_unique<JumpRates>(jumps, series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
   };
   if (own_) ownRates_ = ratesOf(own);
+  if (own_) findKinksThatJump();
   if (holding_) heldRates_ = ratesOf(of);
 }
 
@@ -368,10 +369,8 @@ bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const 
 
 /// In the tube that was bounded last.
 bool FlowStepper::mayPassKink(const FlowSet& set) const {
-  const Box box = boxWithin(y_), parameters = rangesOf(set.parameters);
-  for (std::size_t k = 0; k < kinks_->count(); ++k)
-    if (contains(rangeOf(kinks_->form(k), box, parameters), 0.0)) return true;
-  return false;
+  const std::vector<Interval> u = kinks_->arguments(Interval(set.t), boxWithin(y_), set.parameters);
+  return std::ranges::any_of(u, [](const Interval& argument) { return contains(argument, 0.0); });
 }
 
 /// Of the motion's own jumps the signs that are given, or do not change.

@@ -48,8 +48,9 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
       inputs_(std::move(inputs)),
       following_(motion.states(), order) {
   series_.setVarying(inputs_.parameters());
-  kinks_ = std::make_unique<FlowKinks>(motion, inputs_.parameters());
+  kinks_ = std::make_unique<FlowKinks>(motion, inputs_.parameters(), series_.monomials().symbols() > 0);
   if (kinks_->count() == 0) kinks_.reset();
+  if (kinks_) kinksThatJump_.assign(kinks_->count(), 0);
   for (auto* v : {&epsilon_, &inTime_}) v->assign(at(n_ * n_), 0.0);
   for (auto* v :
        {&start_, &E_, &y_, &e1_, &scale_, &floor_, &least_, &pace_, &second_, &third_, &turning_, &driven_, &heldTube_})

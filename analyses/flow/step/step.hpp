@@ -329,6 +329,9 @@ class FlowStepper {
   Look lookAtCrossings(const FlowSet& set, const Around& around, double& h, double smallest, double left);
   Look giveNarrower(const std::vector<std::size_t>& narrower, double h);
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
+  Interval kinkAtStart(const FlowSet& set, std::size_t kink, const Interval& found) const;
+  void boundCurves(const FlowSet& set, double h, std::vector<Interval>& u, std::vector<JumpBound>& bounds,
+                   std::vector<JumpBound>& atStart);
   bool leavesKinkSides(const std::vector<JumpBound>& atStart, const std::vector<Interval>& u, double h);
   Look passKinks(const std::vector<JumpBound>& bounds, double h, double left);
   Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
@@ -405,6 +408,7 @@ class FlowStepper {
   Look lookAtRelease(const FlowSet& set, double& h, double smallest);
   Look lookAtSurface(const FlowSet& set, double& h, double smallest);
   bool mayPassAsTurn(std::size_t kink) const;
+  void findKinksThatJump();
   Look lookAtPassage(const FlowSet& set, double& h, double smallest);
   /// How much longer than until the last turns a step is, in times of what there is between first and last: all are
   /// known to have turned, then.
@@ -439,6 +443,8 @@ class FlowStepper {
   struct TurnProof;
   bool boundDefect(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn, TurnProof& proof,
                    double& relativeDefect);
+  void meetDerivatives(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn,
+                       const std::vector<double>& most, bool isFirst, TurnProof& proof);
   bool boundOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn, TurnProof& proof);
   bool isTurnLost(const StepTurn& turn, const TurnProof& proof);
   bool isTurnInTube(const StepTurn& turn, const TurnProof& proof);
@@ -496,6 +502,8 @@ class FlowStepper {
   std::map<std::pair<int, bool>, AlongStep> heldPushes_;               // of own jumps, from above or not; once needed
   double length_ = 0, resolution_ = 0;                                 // of time, s
   std::unique_ptr<FlowKinks> kinks_;                                   // null: there are none
+  std::vector<char> kinksThatJump_;                                    // of each, whether a jump has its surface
+  std::unique_ptr<AlongStep> curves_;                                  // FlowKinks::curvesAlong; once needed
   TimeKinks timeKinks_;
   std::vector<Interval> kinkRates_;  // over the step
   std::vector<StepCrossing> crossings_;

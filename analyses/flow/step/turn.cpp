@@ -162,46 +162,44 @@ Program passageOf(const FlowJumps& jumps, std::size_t jump, double side) {
                 recorder.constant(1.0));
 }
 
-Program passageOf(const Program& f, const LinearForm& u, double side) {
-  const std::size_t n = at(f.states());
+Program passageOf(const Program& f, const KinkArgument& u, double side) {
   Recorder recorder(f.states(), f.parameters());
   const std::vector<int> itself = recorder.append(f);
+  std::vector<int> kinks;  // the nodes |u|
+  for (std::size_t i = 0; i < f.nodes().size(); ++i)
+    if (f.nodes()[i].op == Op::abs && isArgument(u, f, f.nodes()[i].a)) kinks.push_back(static_cast<int>(i));
+  if (kinks.empty()) throw std::logic_error("a kink is passed that there is not");
   const auto ratesWith = [&](double sign) {  // sign u in place of |u|
     std::vector<int> instead(f.nodes().size(), -1), rates;
-    for (std::size_t i = 0; i < f.nodes().size(); ++i) {
-      const Node& node = f.nodes()[i];
-      const auto form = node.op == Op::abs ? linearFormOf(f, node.a) : std::nullopt;
-      if (!form || !isSameForm(*form, u)) continue;
-      instead[i] = sign > 0 ? itself[node.a] : recorder.neg(itself[node.a]);
+    for (const int kink : kinks) {
+      const int argument = itself[f.nodes()[kink].a];
+      instead[kink] = sign > 0 ? argument : recorder.neg(argument);
     }
     const std::vector<int> here = recorder.append(f, {}, instead);
-    for (std::size_t i = 0; i < n; ++i) rates.push_back(here[f.outputNodes()[i]]);
+    for (int i = 0; i < f.states(); ++i) rates.push_back(here[f.outputNodes()[i]]);
     return rates;
   };
   const std::vector<int> before = ratesWith(side), after = ratesWith(-side);
-  const auto ahead = [&](const std::vector<int>& of, int rest) {  // -side (Σ c_i of_i + rest)
-    int sum = rest;
-    for (std::size_t i = 0; i < n; ++i)
-      if (u.states[i] != 0) sum = recorder.add(sum, recorder.mul(recorder.constant(u.states[i]), of[i]));
-    return side > 0 ? recorder.neg(sum) : sum;
-  };
-  std::vector<int> states;
-  int rest = recorder.constant(u.constant);
-  for (std::size_t i = 0; i < n; ++i) states.push_back(recorder.state(static_cast<int>(i)));
-  for (std::size_t k = 0; k < u.parameters.size(); ++k)
-    if (u.parameters[k] != 0)
-      rest =
-          recorder.add(rest, recorder.mul(recorder.constant(u.parameters[k]), recorder.parameter(static_cast<int>(k))));
-  const int still = recorder.constant(0.0), always = recorder.constant(1.0);
-  return turnOf(recorder, after, ahead(states, rest), ahead(before, still), ahead(after, still), always);
+  const int argument = itself[f.nodes()[kinks.front()].a], guard = side > 0 ? recorder.neg(argument) : argument;
+  return turnOf(recorder, after, guard, growthAlong(recorder, guard, before), growthAlong(recorder, guard, after),
+                recorder.constant(1.0));
 }
 
 FlowTurn::FlowTurn(const Program& along, std::shared_ptr<const Monomials> monomials, int order, double length,
                    double resolution, const std::atomic<bool>* cancelled)
     : AlongStep(along, monomials, order, length, resolution, cancelled),
       states_(along.states()),
-      following_(followingOf(along), std::move(monomials), order, length, resolution, cancelled),
-      derivatives_(forwardDifferentiated(followingOf(along))) {}
+      following_(followingOf(along), monomials, order, length, resolution, cancelled),
+      slopes_(forwardDifferentiated(followingOf(along))),
+      derivatives_(slopes_),
+      makeAlong_([=, this] {
+        return std::make_unique<AlongStep>(slopes_, monomials, order, length, resolution, cancelled);
+      }) {}
+
+AlongStep& FlowTurn::alongDerivatives() {
+  if (!alongDerivatives_) alongDerivatives_ = makeAlong_();
+  return *alongDerivatives_;
+}
 
 std::vector<Interval> FlowTurn::derivatives(const Interval& time, const Box& states, const Box& parameters) {
   const std::size_t n = detail::at(states_);

@@ -2,6 +2,7 @@
 // step, and when it does. docs/flow.md, section 7, "Turns".
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,11 +28,16 @@ class FlowTurn : public AlongStep {
   AlongStep& following() { return following_; }
   /// ∂f_a/∂x, by row, wherever time and states are within these.
   std::vector<Interval> derivatives(const Interval& time, const Box& states, const Box& parameters);
+  /// f_a, then these, along a step.
+  AlongStep& alongDerivatives();
 
  private:
   int states_;
   AlongStep following_;
-  Evaluator<Interval> derivatives_;  // f_a, then these
+  Program slopes_;  // f_a, then ∂f_a/∂x
+  Evaluator<Interval> derivatives_;
+  std::function<std::unique_ptr<AlongStep>()> makeAlong_;
+  std::unique_ptr<AlongStep> alongDerivatives_;  // once needed
 };
 
 /// `jump`, one of those `held`, lets go to `side` (1, -1); the others hold on. The guard is how fast its argument moves
@@ -49,6 +55,6 @@ Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side);
 Program passageOf(const FlowJumps& jumps, std::size_t jump, double side);
 /// f (the first outputs, one a state) has a kink in u, which solutions pass: |u| = side u until then, and -side u from
 /// then on. The guard is -side u, and solutions are ahead as fast as that rises.
-Program passageOf(const Program& f, const LinearForm& u, double side);
+Program passageOf(const Program& f, const KinkArgument& u, double side);
 
 }  // namespace gamut

@@ -14,6 +14,7 @@
 #include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/flow/step/step.hpp"
 #include "scalars/index.hpp"
+#include "scalars/program/sides.hpp"
 
 namespace gamut {
 
@@ -92,7 +93,7 @@ FlowTurn* FlowStepper::passageFor(std::size_t kink, double side) {
   const auto [place, isNew] = passages_.try_emplace({kink, side > 0});
   if (isNew)
     place->second =
-        std::make_unique<FlowTurn>(passageOf(own_ ? own_->jumps().given : kinks_->f(), kinks_->form(kink), side),
+        std::make_unique<FlowTurn>(passageOf(own_ ? own_->jumps().given : kinks_->f(), kinks_->argument(kink), side),
                                    series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
   return place->second.get();
 }
@@ -225,25 +226,23 @@ bool FlowStepper::mayPassAsTurn(std::size_t kink) const {
   if (!assumed_.mayPass || !inputs_.empty() || monomials().symbols() == 0 || !(length_ > 0)) return false;
   if (!own_) return series_.kinks().jumps().empty();
   for (std::size_t j = 0; j < own_->jumps().count(); ++j) {
-    const std::optional<LinearForm>& form = own_->jumps().forms[j];
     const bool isOnSide = !assumed_.sides.empty() && assumed_.sides[j] != 0;
-    if ((!isOnSide && series_.kinks().mayTurn(series_.kinks().jumps()[j])) ||
-        (form && signOfRatio(*form, kinks_->form(kink)) != 0))
-      return false;
+    if (!isOnSide && series_.kinks().mayTurn(series_.kinks().jumps()[j])) return false;
   }
-  return true;
+  return !kinksThatJump_[kink];
+}
+
+/// Of each kink, whether a jump of the motion has the same surface.
+void FlowStepper::findKinksThatJump() {
+  const FlowJumps& jumps = own_->jumps();
+  const std::vector<int> signs = jumpsOf(jumps.f);
+  for (std::size_t k = 0; k < kinksThatJump_.size(); ++k)
+    for (const int sign : signs)
+      if (isSameSurface(kinks_->argument(k), jumps.f, jumps.f.nodes()[sign].a)) kinksThatJump_[k] = 1;
 }
 
 bool FlowStepper::meetsKinks() const {
-  if (!kinks_ || !series_.hasKinks()) return false;
-  const auto jumpsWith = [&](const LinearForm& kink) {
-    return own_ && std::ranges::any_of(own_->jumps().forms, [&](const std::optional<LinearForm>& form) {
-             return form && signOfRatio(*form, kink) != 0;
-           });
-  };
-  for (std::size_t k = 0; k < kinks_->count(); ++k)
-    if (!jumpsWith(kinks_->form(k))) return true;
-  return false;
+  return kinks_ && series_.hasKinks() && std::ranges::find(kinksThatJump_, 0) != kinksThatJump_.end();
 }
 
 /// Where solutions may be at times of their own from a first turn on, the step takes what moves away from zero at first
@@ -258,7 +257,7 @@ void FlowStepper::assumeKinks(const FlowSet& set) {
   kinks_->bound(Interval(set.t), boxAtStart(set), set.parameters, u, rates);
   double first = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
-    const Interval start = argumentOf(set, kinks_->form(k), total_, &monomials());
+    const Interval start = kinkAtStart(set, k, u[k]);
     const int from = start.lower() > 0 ? 1 : start.upper() < 0 ? -1 : 0;
     if (from == 0 || !isCommon(rates[k])) continue;
     const double nearest = from > 0 ? start.lower() : -start.upper();
@@ -275,10 +274,10 @@ void FlowStepper::assumeKinks(const FlowSet& set) {
 /// What the step takes of kinks, for what is composed with its polynomials; of the one that is passed `ofPassing`, 0:
 /// nothing.
 void FlowStepper::takeKinkSides(AlongStep& along, double ofPassing) const {
-  std::vector<std::pair<const LinearForm*, double>> sides;
+  std::vector<std::pair<const KinkArgument*, double>> sides;
   for (std::size_t k = 0; k < assumed_.kinkSides.size(); ++k) {
     const double side = k == assumed_.passing ? ofPassing : assumed_.kinkSides[k];
-    if (side != 0) sides.emplace_back(&kinks_->form(k), side);
+    if (side != 0) sides.emplace_back(&kinks_->argument(k), side);
   }
   along.takeSides(std::move(sides));
 }
@@ -311,7 +310,6 @@ FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, doub
   if (look != Look::goOn) return look;
   holdBeside(held_);
   for (JumpBound& bound : ownBounds_) bound = {.sign = bound.sign};  // rates are others then
-  turn_->form = &kinks_->form(assumed_.passing);
   return look;
 }
 
@@ -814,6 +812,7 @@ struct FlowStepper::TurnProof {
   std::vector<double> ofFrame, before;  // what Ψ̃ + S + K (t - m(ξ)) makes of the set's remainder; |z| until m(ξ)
   std::vector<double> slack;            // what second doubles and roundings of x̃ + D are
   std::vector<Interval> J;              // ∂f_a/∂x
+  bool knowsSlopes = false;             // by polynomials as well
 };
 
 /// The defect of D, f_a(x̃ + D) - x̃' - D', and what there is of z and of the frame before solutions turn.
@@ -867,6 +866,29 @@ bool FlowStepper::boundDefect(const FlowSet& set, const std::vector<Interval>& s
   return true;
 }
 
+/// What polynomials know of ∂f_a/∂x besides, of which intervals over a whole step may know little: along x̃ + D, |z| at
+/// most `most`.
+void FlowStepper::meetDerivatives(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn,
+                                  const std::vector<double>& most, bool isFirst, TurnProof& proof) {
+  const std::size_t n = at(n_);
+  AlongStep& along = turn.of->alongDerivatives();
+  std::vector<double> tube;
+  for (std::size_t i = 0; i < n; ++i) tube.push_back((proof.ofFrame[i] + most[i] + proof.slack[i]) * bounds::up);
+  const double theta = turn.stops() ? turn.span : theta_;
+  if (isFirst) {
+    takeKinkSides(along, 0);
+    proof.knowsSlopes = along.load(proof.states, set.t, h0_, theta, set.parameters, signs, tube);
+  } else {
+    proof.knowsSlopes = proof.knowsSlopes && along.rebound(tube.data());
+  }
+  if (!proof.knowsSlopes) return;
+  const double from = turn.stops() ? 0.0 : std::max(0.0, turn.moments.lower()) / h0_;
+  for (std::size_t i = 0; i < n * n; ++i)
+    if (const Interval both = intersection(proof.J[i], along.over(static_cast<int>(n + i), from, theta));
+        !isEmpty(both))
+      proof.J[i] = both;
+}
+
 /// |z| while it is followed: crossed_. Proved where what bounds of f_a's derivatives allow for is more.
 bool FlowStepper::boundOnceTurned(const FlowSet& set, const std::vector<Interval>& signs, StepTurn& turn,
                                   TurnProof& proof) {
@@ -891,6 +913,7 @@ bool FlowStepper::boundOnceTurned(const FlowSet& set, const std::vector<Interval
     for (std::size_t i = 0; i < n; ++i)
       box.push_back(series_.rangeOf(static_cast<int>(i), (turn.most[i] + proof.ofFrame[i] + most[i]) * bounds::up));
     proof.J = turn.of->derivatives(Interval(set.t) + Interval(0.0, h_), box, parameters);
+    meetDerivatives(set, signs, turn, most, round == 0, proof);
     following_.setUnits(growth_.units());
     for (std::size_t i = 0; i < n * n; ++i) {
       if (!isCommon(proof.J[i])) return false;
@@ -933,13 +956,14 @@ bool FlowStepper::isTurnLost(const StepTurn& turn, const TurnProof& proof) {
 
 /// Whether those that have turned are in the step's tube, which else is lifted to them.
 bool FlowStepper::isTurnInTube(const StepTurn& turn, const TurnProof& proof) {
+  constexpr double heard = 0x1p-20;  // of the tube of what rests: less would be lost in its rounding
   bool isInTube = true;
   for (std::size_t i = 0; i < at(n_); ++i) {
     const double reach = (turn.most[i] + crossed_[i]) * bounds::up;
     if ((proof.ofFrame[i] + reach) * bounds::up < y_[i]) continue;
     isInTube = false;
     const double lacking = proof.ofFrame[i] + 1.25 * reach - (y_[i] - assumed_.lift[i]);
-    assumed_.lift[i] = std::max({1.25 * assumed_.lift[i], 1.5 * reach, lacking});
+    assumed_.lift[i] = std::max({1.25 * assumed_.lift[i], 1.5 * reach, lacking, heard * heldTube_[i]});
   }
   return isInTube;
 }

@@ -43,6 +43,18 @@ const std::vector<Knocking>& knocking() {
        {0.0, 8.0, Interval(0.9, 1.1)},
        1.0,
        8},
+      // Where the kink is no linear form of states, and beside what rests, known to rounding.
+      {"atAWallOnAnArc",
+       record(3, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                const Recorded beyond = max(sin(x[0]) - p[0], Recorded(0.0));
+                dx[0] = x[1];
+                dx[1] = -64.0 * p[1] * beyond * cos(x[0]) - 0.0 * x[2];
+                dx[2] = 0.0;
+              }),
+       {0.0, 1.0, Interval("0.1"), Interval(0.49, 0.51), Interval(0.95, 1.05)},
+       1.25,
+       4},
       {"withFrictionBesides",
        record(2, 1,
               [](auto, const auto& x, const auto& p, auto& dx) {
