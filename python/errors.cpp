@@ -1,6 +1,6 @@
 #include <pybind11/pybind11.h>
 
-#include <initializer_list>
+#include <string>
 
 #include "python/doors.hpp"
 #include "studies/atomic_file.hpp"
@@ -29,7 +29,12 @@ void translate(std::exception_ptr thrown) try {
 } catch (const NotComparable& error) {
   raise("NotComparable", error.what());
 } catch (const OutputRefused& error) {
-  PyErr_SetString(PyExc_FileExistsError, error.what());
+  const std::string said = error.what(), option = "--force";
+  const auto at = said.rfind(option);
+  if (at == said.npos)
+    PyErr_SetString(PyExc_OSError, said.c_str());
+  else
+    PyErr_SetString(PyExc_FileExistsError, (said.substr(0, at) + "overwrite=True").c_str());
 } catch (const WriteError& error) {
   PyErr_SetString(PyExc_OSError, error.what());
 }

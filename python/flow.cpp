@@ -82,6 +82,9 @@ struct Equation {
 Equation equation(const py::function& function, int states, int parameters, const py::object& outputs,
                   const py::kwargs& options) {
   Equation made{recordedFrom(function, states, parameters), Program(), !outputs.is_none(), optionsOf(options)};
+  if (made.f.outputs() != states)
+    throw std::invalid_argument("the function returns " + std::to_string(made.f.outputs()) + " rates of " +
+                                std::to_string(states) + " states");
   if (made.hasOutputs) made.g = recordedFrom(outputs, states, parameters);
   const Work unwatched{[](const std::string&, double) {}, nullptr};
   made.flow(unwatched);  // says what makes no sense

@@ -17,29 +17,63 @@ namespace {
 namespace py = pybind11;
 using namespace py::literals;
 
+template <class S>
+S numberOf(const py::handle& value);
+template <>
+Interval numberOf<Interval>(const py::handle& value) {
+  return enclosing(value);
+}
+template <>
+Recorded numberOf<Recorded>(const py::handle& value) {
+  return py::isinstance<Recorded>(value) ? value.cast<Recorded>() : Recorded(enclosing(value));
+}
+
+/// Left to the other operand where it is no number, or one that knows more.
+template <class S>
+bool isOurs(const py::handle& value) {
+  return py::isinstance<S>(value) || py::isinstance<Interval>(value) || isNumber(value);
+}
+
+template <class S>
+S power(const S& x, const S& y) {
+  return S(pow(x, y));
+}
+
 /// A power that is known: a whole one, or any.
 template <class S>
-S power(const S& x, double exponent) {
-  const auto whole = static_cast<int>(exponent);
-  return std::abs(exponent) < 1024 && whole == exponent ? S(pow(x, whole)) : S(pow(x, S(exponent)));
+S powerOf(const S& x, const py::handle& exponent) {
+  constexpr int most = 1024;
+  if (isNumber(exponent)) {
+    const auto number = py::float_(py::reinterpret_borrow<py::object>(exponent)).cast<double>();
+    if (std::abs(number) < most && number == std::trunc(number)) return S(pow(x, static_cast<int>(number)));
+  }
+  return power(x, numberOf<S>(exponent));
 }
 
 /// What all numbers of ours can.
 template <class S>
 void bindArithmetic(py::class_<S>& number) {
-  number.def(py::self + py::self)
-      .def(py::self - py::self)
-      .def(py::self * py::self)
-      .def(py::self / py::self)
-      .def(-py::self)
-      .def(double() + py::self)
-      .def(double() - py::self)
-      .def(double() * py::self)
-      .def(double() / py::self)
-      .def("__pos__", [](const S& x) { return x; })
-      .def("__pow__", power<S>)
-      .def("__pow__", [](const S& x, const S& y) { return S(pow(x, y)); })
-      .def("__rpow__", [](const S& y, double x) { return S(pow(S(x), y)); });
+  const auto operation = [&](const char* name, auto compute) {
+    number.def(name, [compute](const S& x, const py::object& y) -> py::object {
+      if (!isOurs<S>(y)) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+      return py::cast(compute(x, y));
+    });
+  };
+  operation("__add__", [](const S& x, const py::object& y) { return S(x + numberOf<S>(y)); });
+  operation("__radd__", [](const S& x, const py::object& y) { return S(numberOf<S>(y) + x); });
+  operation("__sub__", [](const S& x, const py::object& y) { return S(x - numberOf<S>(y)); });
+  operation("__rsub__", [](const S& x, const py::object& y) { return S(numberOf<S>(y) - x); });
+  operation("__mul__", [](const S& x, const py::object& y) { return S(x * numberOf<S>(y)); });
+  operation("__rmul__", [](const S& x, const py::object& y) { return S(numberOf<S>(y) * x); });
+  operation("__truediv__", [](const S& x, const py::object& y) { return S(x / numberOf<S>(y)); });
+  operation("__rtruediv__", [](const S& x, const py::object& y) { return S(numberOf<S>(y) / x); });
+  operation("__pow__", [](const S& x, const py::object& y) { return powerOf(x, y); });
+  operation("__rpow__", [](const S& x, const py::object& y) { return power(numberOf<S>(y), x); });
+  operation("arctan2", [](const S& y, const py::object& x) { return S(atan2(y, numberOf<S>(x))); });
+  operation("hypot", [](const S& x, const py::object& y) { return S(hypot(x, numberOf<S>(y))); });
+  operation("minimum", [](const S& x, const py::object& y) { return S(min(x, numberOf<S>(y))); });
+  operation("maximum", [](const S& x, const py::object& y) { return S(max(x, numberOf<S>(y))); });
+  number.def("__neg__", [](const S& x) { return S(-x); }).def("__pos__", [](const S& x) { return x; });
 #define GAMUT_METHOD(name, function) number.def(name, [](const S& x) { return S(function(x)); });
   GAMUT_METHOD("__abs__", abs)
   GAMUT_METHOD("absolute", abs)
@@ -68,75 +102,115 @@ void bindArithmetic(py::class_<S>& number) {
   GAMUT_METHOD("arctanh", atanh)
   GAMUT_METHOD("sign", sign)
 #undef GAMUT_METHOD
-  number.def("arctan2", [](const S& y, const S& x) { return S(atan2(y, x)); })
-      .def("hypot", [](const S& x, const S& y) { return S(hypot(x, y)); })
-      .def("minimum", [](const S& x, const S& y) { return S(min(x, y)); })
-      .def("maximum", [](const S& x, const S& y) { return S(max(x, y)); });
 }
 
 void bindInterval(py::module_& module) {
   py::class_<Interval> interval(module, "Interval",
                                 "All numbers from lower to upper, both included. Operations enclose every result.");
-  interval.def(py::init<double>(), "value"_a)
-      .def(py::init<double, double>(), "lower"_a, "upper"_a)
-      .def(py::init([](const std::string& text) { return Interval(text); }), "text"_a,
-           "An enclosure of a decimal, \"0.1\", or of bounds, \"[0.1, 0.2]\".")
+  interval
+      .def(py::init([](const py::object& value) { return enclosing(value); }), "value"_a,
+           "Of a float, which is itself; of an int, a Fraction, a Decimal or a text (\"0.1\", \"[0.1, 0.2]\"), which "
+           "are "
+           "enclosed; of a pair of bounds.")
+      .def(py::init([](const py::object& lower, const py::object& upper) {
+             return enclosing(py::make_tuple(lower, upper));
+           }),
+           "lower"_a, "upper"_a)
       .def_property_readonly("lower", [](const Interval& x) { return x.lower(); })
       .def_property_readonly("upper", [](const Interval& x) { return x.upper(); })
       .def_property_readonly("width", [](const Interval& x) { return width(x); })
       .def_property_readonly("middle", [](const Interval& x) { return midpoint(x); })
-      .def("__contains__", [](const Interval& x, double value) { return contains(x, value); })
-      .def("__contains__", [](const Interval& x,
-                              const Interval& part) { return x.lower() <= part.lower() && part.upper() <= x.upper(); })
-      .def("__eq__",
-           [](const Interval& x, const Interval& y) { return x.lower() == y.lower() && x.upper() == y.upper(); })
+      .def("__contains__",
+           [](const Interval& x, const py::object& value) {  // Python compares floats, fractions and decimals exactly
+             if (!py::isinstance<Interval>(value))
+               return py::object(py::float_(x.lower())) <= value && value <= py::object(py::float_(x.upper()));
+             const auto part = value.cast<Interval>();
+             return x.lower() <= part.lower() && part.upper() <= x.upper();
+           })
+      .def(
+          "__eq__",
+          [](const Interval& x, const Interval& y) { return x.lower() == y.lower() && x.upper() == y.upper(); },
+          py::is_operator())
       .def("__hash__", [](const Interval& x) { return py::hash(py::make_tuple(x.lower(), x.upper())); })
+      .def(py::pickle([](const Interval& x) { return py::make_tuple(x.lower(), x.upper()); },
+                      [](const py::tuple& ends) { return Interval(ends[0].cast<double>(), ends[1].cast<double>()); }))
+      .def("__format__",
+           [](const Interval& x, const py::str& how) {
+             const auto ends = {py::float_(x.lower()), py::float_(x.upper())};
+             std::string text;
+             for (const py::float_& end : ends)
+               text += (text.empty() ? "[" : ", ") + end.attr("__format__")(how).cast<std::string>();
+             return text + "]";
+           })
       .def("__iter__", [](const Interval& x) { return py::iter(py::make_tuple(x.lower(), x.upper())); })
       .def("__repr__", [](const Interval& x) {
         return x.lower() == x.upper() ? fmt::format("Interval({})", x.lower())
                                       : fmt::format("Interval({}, {})", x.lower(), x.upper());
       });
   bindArithmetic(interval);
-  py::implicitly_convertible<double, Interval>();
-  py::implicitly_convertible<py::int_, Interval>();
 }
+
+/// What was asked of a recorded number that it cannot say, in the words of the refusal: NumPy keeps it to itself.
+thread_local const char* refusal = nullptr;
 
 /// Python asks a number that is not there yet.
 template <class Result>
 auto refused(const char* instead) {
   return [instead](const Recorded&, const py::args&) -> Result {
-    throw py::type_error(
-        std::string("a recorded number has no value yet, so that nothing can depend on how great it is; ") + instead);
+    refusal = instead;
+    throw py::type_error(instead);
   };
 }
+
+constexpr const char* noBranch =
+    "a recorded number has no value yet, so that nothing can depend on how great it is; write gamut.where(x - limit, "
+    "above, below), which chooses by the sign of the first, gamut.minimum, gamut.maximum or abs";
+constexpr const char* noValue =
+    "a recorded number has no value yet, so that it is no float; write gamut.sin, gamut.exp and the like, not those of "
+    "math";
 
 void bindRecorded(py::module_& module) {
   py::class_<Recorded> recorded(
       module, "Recorded",
       "A number of a right-hand side that is being recorded: what is done with it is written down.");
-  recorded.def(py::init<double>()).def(py::init<Interval>());
+  recorded.def(py::init([](const py::object& value) { return numberOf<Recorded>(value); }));
   bindArithmetic(recorded);
-  const char* const choose = "write gamut.where(condition, above, below), gamut.minimum, gamut.maximum or abs";
   for (const char* name : {"__lt__", "__le__", "__gt__", "__ge__", "__eq__", "__ne__", "__bool__"})
-    recorded.def(name, refused<bool>(choose));
-  const char* const compute = "write gamut.sin, gamut.exp and the like, or NumPy's, not those of math";
-  recorded.def("__float__", refused<double>(compute)).def("__int__", refused<int>(compute));
-  recorded.def("__index__", refused<int>(compute)).attr("__hash__") = py::none();
+    recorded.def(name, refused<bool>(noBranch));
+  recorded.def("__float__", refused<double>(noValue)).def("__int__", refused<int>(noValue));
+  recorded.def("__index__", refused<int>(noValue)).attr("__hash__") = py::none();
   recorded.def("__repr__", [](const Recorded&) { return "<a recorded number>"; });
-  py::implicitly_convertible<double, Recorded>();
-  py::implicitly_convertible<py::int_, Recorded>();
-  py::implicitly_convertible<Interval, Recorded>();
-  module.def("where", [](const Recorded& c, const Recorded& x, const Recorded& y) { return where(c, x, y); });
+  module.def("where", [](const py::object& c, const py::object& x, const py::object& y) {
+    return where(numberOf<Recorded>(c), numberOf<Recorded>(x), numberOf<Recorded>(y));
+  });
 }
 
 template <class S>
-std::vector<S> evaluated(const Program& program, const std::vector<S>& x, const std::vector<S>& p, const S& t) {
-  if (static_cast<int>(x.size()) != program.states() || static_cast<int>(p.size()) != program.parameters())
+std::vector<S> evaluated(const Program& program, const py::sequence& x, const py::sequence& p, const py::object& t) {
+  const auto numbers = [](const py::sequence& all) {
+    std::vector<S> result;
+    for (const py::handle each : all)
+      if constexpr (std::is_same_v<S, double>)
+        result.push_back(py::float_(py::reinterpret_borrow<py::object>(each)));
+      else
+        result.push_back(enclosing(each));
+    return result;
+  };
+  Evaluator<S> evaluator(program);
+  evaluator.setParameters(numbers(p));
+  return evaluator(numbers(py::make_tuple(t)).front(), numbers(x));
+}
+
+/// Floats of floats; intervals where one of the numbers is.
+py::object valuesOf(const Program& program, const py::sequence& x, const py::sequence& p, const py::object& t) {
+  if (x.size() != static_cast<std::size_t>(program.states()) ||
+      p.size() != static_cast<std::size_t>(program.parameters()))
     throw std::invalid_argument(fmt::format("the program takes {} states and {} parameters, not {} and {}",
                                             program.states(), program.parameters(), x.size(), p.size()));
-  Evaluator<S> evaluator(program);
-  evaluator.setParameters(p);
-  return evaluator(t, x);
+  bool areFloats = !py::isinstance<Interval>(t);
+  for (const py::sequence& all : {x, p})
+    for (const py::handle each : all) areFloats = areFloats && !py::isinstance<Interval>(each);
+  return areFloats ? py::cast(evaluated<double>(program, x, p, t)) : py::cast(evaluated<Interval>(program, x, p, t));
 }
 
 void bindProgram(py::module_& module) {
@@ -151,8 +225,8 @@ void bindProgram(py::module_& module) {
       .def_property_readonly("operations", &Program::operations)
       .def("differentiated", &Program::differentiated, "with_parameters"_a = false,
            "Its outputs, then their derivatives by each state (and parameter), output by output.")
-      .def("__call__", evaluated<double>, "x"_a, "p"_a = std::vector<double>(), "t"_a = 0.0)
-      .def("__call__", evaluated<Interval>, "x"_a, "p"_a = std::vector<Interval>(), "t"_a = Interval(0.0))
+      .def("__call__", valuesOf, "x"_a, "p"_a = py::tuple(), "t"_a = 0.0,
+           "Of floats a list of floats; of Intervals, or some of them, enclosures.")
       .def("__str__", [](const Program& program) {
         std::ostringstream text;
         text << program;
@@ -162,6 +236,34 @@ void bindProgram(py::module_& module) {
 
 }  // namespace
 
+bool isNumber(const py::handle& value) {
+  if (PyFloat_Check(value.ptr()) != 0 || PyLong_Check(value.ptr()) != 0) return true;
+  if (py::hasattr(value, "ndim")) return value.attr("ndim").cast<int>() == 0 && PyNumber_Check(value.ptr()) != 0;
+  return py::hasattr(value, "as_integer_ratio");  // fractions and decimals
+}
+
+Interval enclosing(const py::handle& value) {
+  if (py::isinstance<Interval>(value)) return value.cast<Interval>();
+  if (PyFloat_Check(value.ptr()) != 0) return Interval(PyFloat_AsDouble(value.ptr()));
+  if (PyLong_Check(value.ptr()) != 0 || py::isinstance<py::str>(value))
+    return Interval(py::str(value).cast<std::string>());
+  if (py::isinstance<py::tuple>(value) || py::isinstance<py::list>(value) ||
+      (py::hasattr(value, "ndim") && !isNumber(value))) {
+    const auto ends = py::list(py::reinterpret_borrow<py::object>(value));
+    if (ends.size() == 2) return {enclosing(ends[0]).lower(), enclosing(ends[1]).upper()};
+  }
+  if (isNumber(value) && py::hasattr(value, "as_integer_ratio")) {
+    const py::tuple ratio = value.attr("as_integer_ratio")();
+    return enclosing(ratio[0]) / enclosing(ratio[1]);
+  }
+  if (isNumber(value) && py::hasattr(value, "item")) {
+    const py::object item = value.attr("item")();
+    if (!item.get_type().is(py::type::of(value))) return enclosing(item);
+  }
+  throw py::type_error("expected a number, a text that is one, or a pair of bounds, not " +
+                       py::repr(value).cast<std::string>());
+}
+
 Program recordedFrom(const py::function& function, int states, int parameters) {
   if (states < 0 || parameters < 0)
     throw std::invalid_argument("numbers of states and parameters must not be negative");
@@ -169,14 +271,20 @@ Program recordedFrom(const py::function& function, int states, int parameters) {
     py::list allX, allP;
     for (int i = 0; i < states; ++i) allX.append(Recorded(x[static_cast<std::size_t>(i)]));
     for (int i = 0; i < parameters; ++i) allP.append(Recorded(p[static_cast<std::size_t>(i)]));
-    return py::list(function(Recorded(t), allX, allP));
+    refusal = nullptr;
+    const py::object returned = function(Recorded(t), allX, allP);
+    if (refusal != nullptr) throw py::type_error(refusal);
+    if (!py::isinstance<py::sequence>(returned) && !py::hasattr(returned, "ndim"))
+      throw py::type_error("the function is to return a list of numbers, not " +
+                           py::repr(returned).cast<std::string>());
+    return py::list(returned);
   };
   std::size_t outputs = 0;  // they are counted first
   record(states, parameters, 0, [&](auto t, const auto& x, const auto& p, auto&) { outputs = called(t, x, p).size(); });
   return record(states, parameters, static_cast<int>(outputs), [&](auto t, const auto& x, const auto& p, auto& y) {
     const py::list values = called(t, x, p);
     if (values.size() != outputs) throw std::invalid_argument("the function returns now more numbers, now fewer");
-    for (std::size_t i = 0; i < outputs; ++i) y[i] = values[i].cast<Recorded>();
+    for (std::size_t i = 0; i < outputs; ++i) y[i] = numberOf<Recorded>(values[i]);
   });
 }
 

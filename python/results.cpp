@@ -29,6 +29,7 @@ using Held = std::shared_ptr<Results>;
 py::array_t<double> arrayOf(std::span<const double> numbers, const GridShape& shape) {
   py::array_t<double> array(std::vector<py::ssize_t>(shape.begin(), shape.end()));
   std::ranges::copy(numbers, array.mutable_data());
+  array.attr("flags").attr("writeable") = false;  // what is proved stays so
   return array;
 }
 
@@ -84,9 +85,9 @@ py::list requirementsOf(const Results& results) {
 
 py::dict verdictOf(const Results& results) {
   const Verdict verdict = judge(results);
-  return py::dict("word"_a = wordOf(verdict.word), "sentence"_a = verdict.sentence, "notes"_a = verdict.notes,
-                  "settled"_a = verdict.settled, "overestimation"_a = verdict.overestimation,
-                  "reached"_a = verdict.reached);
+  return py::dict("word"_a = results.comparison.present ? wordOf(verdict.word) : std::string_view(),
+                  "sentence"_a = verdict.sentence, "notes"_a = verdict.notes, "settled"_a = verdict.settled,
+                  "overestimation"_a = verdict.overestimation, "reached"_a = verdict.reached);
 }
 
 void save(const Results& results, const std::string& path, bool overwrite) {

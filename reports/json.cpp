@@ -82,6 +82,21 @@ Json& placeOf(Json& object, std::string_view keys, const std::string& label = ""
   return placeOf(place, keys.substr(std::min(keys.size(), key.size() + 1)), label);
 }
 
+/// Whether its places are told by name: outputs, quantities and times.
+bool hasLabels(std::string_view dimension) {
+  return dimension == dimension::output || dimension == dimension::quantity || dimension.ends_with("/time");
+}
+
+/// An array of arrays, the first dimension outside.
+Json arrayOf(std::span<const double> numbers, std::span<const std::size_t> shape) {
+  if (shape.empty()) return numbers.empty() ? Json(nullptr) : number(numbers.front());
+  Json array = Json::array();
+  const std::size_t each = shape.front() == 0 ? 0 : numbers.size() / shape.front();
+  for (std::size_t i = 0; each > 0 && i < shape.front(); ++i)
+    array.push_back(arrayOf(numbers.subspan(i * each, each), shape.subspan(1)));
+  return array;
+}
+
 /// What records of the results say, as they describe themselves.
 class Teller {
  public:
@@ -139,6 +154,10 @@ class Teller {
     for (std::size_t end = 0; numbers != nullptr && end < numbers->ends().size(); ++end) {
       const std::span<const double> all = numbers->all(end, room);
       const std::string last = numbers->ends().size() == 1 ? "" : end == 0 ? "/0" : "/1";
+      if (!dimensions.empty() && std::ranges::none_of(dimensions, hasLabels)) {
+        placeOf(object, keys + last) = arrayOf(all, shape);
+        continue;
+      }
       for (std::size_t i = 0; i < count; ++i) {
         std::size_t rest = i, at = 0, output = 0;
         const std::string* quantity = nullptr;

@@ -16,6 +16,9 @@ class StudyError(ValueError):
         self.line = int(parts[1]) if stands else None
         self.column = int(parts[2]) if stands else None
 
+    def __reduce__(self):
+        return type(self), (self.place, self.problem, self.expected)
+
 
 class ResultsFileError(ValueError):
     """A file that is no results file, or a damaged one."""

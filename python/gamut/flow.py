@@ -5,6 +5,13 @@ from .errors import Interrupted
 from .progress import told
 
 
+def _component(number, value):
+    try:
+        return _gamut.Interval(value)
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"component {number} of the box: {error}") from None
+
+
 class Flow:
     """Encloses every solution of x' = f(t, x, p) for all initial values and parameters in a box.
 
@@ -28,7 +35,7 @@ class Flow:
         Intervals or pairs of bounds. `derivatives_by`: numbers of components of the box, by which derivatives of the
         states are enclosed too (Tube.derivatives). An enclosure that ends early is no exception: Tube.why says so."""
         show, wipe = told(progress)
-        box = [_gamut.Interval(*map(float, each)) if isinstance(each, (tuple, list)) else each for each in box]
+        box = [_component(i, each) for i, each in enumerate(box)]
         try:
             tube, was_interrupted = self._equation.enclose(box, horizon, list(times), list(derivatives_by), show)
         finally:

@@ -14,7 +14,11 @@ def _of_one(name):
     of_numpy = getattr(numpy, name)
 
     def function(x):
-        return getattr(x, name)() if isinstance(x, _OURS) else of_numpy(x)
+        if isinstance(x, _OURS):
+            return getattr(x, name)()
+        if isinstance(x, numpy.ndarray) and x.dtype == object:
+            return numpy.frompyfunc(function, 1, 1)(x)
+        return of_numpy(x)
 
     function.__doc__ = f"{name} of a float, an array, an Interval or a recorded number."
     return function
@@ -24,6 +28,8 @@ def _of_two(name):
     of_numpy = getattr(numpy, name)
 
     def function(x, y):
+        if any(isinstance(each, numpy.ndarray) and each.dtype == object for each in (x, y)):
+            return numpy.frompyfunc(function, 2, 1)(x, y)
         for kind in (_gamut.Recorded, _gamut.Interval):
             if isinstance(x, kind) or isinstance(y, kind):
                 return getattr(x if isinstance(x, kind) else kind(x), name)(y)
@@ -37,7 +43,17 @@ for _name in _ONE + _TWO:
     globals()[_name] = (_of_one if _name in _ONE else _of_two)(_name)
     globals()[_name].__name__ = _name
 
-where = _gamut.where
-where.__doc__  # of recorded numbers alone: x where the condition is above 0, y where it is below
+
+def where(condition, above, below):
+    """`above` where the number `condition` is above 0, `below` where it is below; where it is 0, their mean, and in a rate
+    all that lies between. Of floats, arrays and recorded numbers."""
+    if any(isinstance(each, _gamut.Recorded) for each in (condition, above, below)):
+        return _gamut.where(condition, above, below)
+    if any(isinstance(each, numpy.ndarray) and each.dtype == object for each in (condition, above, below)):
+        return numpy.frompyfunc(where, 3, 1)(condition, above, below)
+    sign = numpy.sign(condition)
+    return 0.5 * ((1 + sign) * above + (1 - sign) * below)
+
+
 
 __all__ = [*_ONE, *_TWO, "where"]

@@ -60,7 +60,8 @@ class Bounds(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """Whether the answers agree: "inside", "outside", "unresolved" or "incomplete", in a sentence, with notes on it."""
+    """Whether the answers agree: "inside", "outside", "unresolved", "incomplete", or "uncompared" where the study asks for
+    nothing that could be; in a sentence, with notes on it."""
 
     word: str
     sentence: str
@@ -221,7 +222,7 @@ class Results:
     def verdict(self):
         """Whether every sample lies inside what is guaranteed."""
         found = self._held.verdict()
-        return Verdict(found["word"], found["sentence"], list(found["notes"]), found["overestimation"])
+        return Verdict(found["word"] or "uncompared", found["sentence"], list(found["notes"]), found["overestimation"])
 
     @property
     def ended(self):
@@ -331,6 +332,9 @@ class Results:
 
     def extend(self, samples, *, jobs=None, time_limit=None, memory_limit=None, progress=True):
         """Results with so many samples in all; what was proved stays."""
+        from .study import _checked
+
+        _checked(samples, None, jobs, time_limit, memory_limit)
         show, wipe = told(progress)
         try:
             held, note, was_interrupted = self._held.extend(
@@ -377,5 +381,6 @@ def open(path):  # noqa: A001
 
 
 def compare(first, second):
-    """What two results differ by, as `gamut compare --json` says (docs/json.md); its `verdict`: "agree", "worse", …"""
+    """What two Results, or the files that hold them, differ by, as `gamut compare --json` says (docs/json.md)."""
+    first, second = (each if isinstance(each, Results) else open(each) for each in (first, second))
     return json.loads(_gamut.compare(first._held, second._held, first._name, second._name))

@@ -1,5 +1,6 @@
 """What a user asks: a mechanism, what of it is uncertain, which outputs are wanted, by which analyses."""
 
+import copy
 import json
 import os
 import tomllib
@@ -41,6 +42,9 @@ class Settings(dict):
     def __repr__(self):
         return f"{type(self).__name__}({dict(self)})"
 
+    def __reduce__(self):
+        return _settings, (type(self).__name__, dict(self))
+
     def __setattr__(self, key, value):
         if not isinstance(getattr(type(self), key, None), property):
             known = ", ".join(k for k in dir(type(self)) if isinstance(getattr(type(self), k), property))
@@ -70,11 +74,19 @@ _TYPES = {name: _settings_type(name, schema) for name, schema in _SECTIONS.items
 _OF_STUDY = frozenset(_SECTIONS["study"]["properties"])
 
 
+def _settings(name, values):
+    return _TYPES[name](values)
+
+
 def _taken(name, value):
-    """A section as it is kept."""
-    if name in _TYPES:
-        return _TYPES[name](value)
-    return [dict(each) for each in value]
+    """A section as it is kept: nothing of it is the caller's."""
+    is_table, is_list = isinstance(value, dict), isinstance(value, (list, tuple))
+    if name in _TYPES and is_table:
+        return _TYPES[name](copy.deepcopy(value))
+    if name not in _TYPES and is_list and all(isinstance(each, dict) for each in value):
+        return [copy.deepcopy(dict(each)) for each in value]
+    expected = "a dictionary" if name in _TYPES else "a list of dictionaries"
+    raise TypeError(f"{name}: expected {expected}, as [{name}] in a study file, not {type(value).__name__}")
 
 
 def _told_of(section):
@@ -87,6 +99,16 @@ def _told_of(section):
         self._data[section] = _taken(section, value)
 
     return property(read, write, None, _SECTIONS[section].get("description", f"[{section}] of the study file"))
+
+
+def _checked(samples, seed, jobs, time_limit, memory_limit):
+    """Refuses what no run can be told."""
+    for name, value, least, most in (("samples", samples, 1, 10**7), ("seed", seed, 0, 2**63 - 1), ("jobs", jobs, 1, 1024)):
+        if value is not None and not (hasattr(value, "__index__") and least <= value <= most):
+            raise ValueError(f"{name} = {value!r}: expected a whole number from {least} to {most}")
+    for name, value in (("time_limit", time_limit), ("memory_limit", memory_limit)):
+        if value is not None and not (isinstance(value, (int, float)) and value > 0):
+            raise ValueError(f"{name} = {value!r}: expected a number above 0")
 
 
 class Study:
@@ -102,15 +124,16 @@ class Study:
         self._text, self._name, self._machine = None, "study", (None, None)
         self._data = {}
         if path is not None:
-            self._name = os.fspath(path)
+            self._name = os.path.abspath(os.fspath(path))
             self._text = _gamut.text_of(self._name)
             self._parse()
         for name, value in sections.items():
+            if name in _SECTIONS:
+                self._data[name] = _taken(name, value)
+        for name, value in sections.items():
             if name in _OF_STUDY and name not in _SECTIONS:
                 self.study[name] = value
-            elif name in _SECTIONS:
-                self._data[name] = _taken(name, value)
-            else:
+            elif name not in _SECTIONS:
                 known = ", ".join(sorted({*_SECTIONS, *_OF_STUDY}))
                 raise TypeError(f"a study has no section '{name}'; expected one of: {known}")
 
@@ -121,6 +144,18 @@ class Study:
         study._text, study._name = text, name
         study._parse()
         return study
+
+    def __setattr__(self, name, value):
+        if not name.startswith("_") and not isinstance(getattr(type(self), name, None), property):
+            known = ", ".join(sorted({*_SECTIONS, *_OF_STUDY}))
+            raise AttributeError(f"a study has no section '{name}'; expected one of: {known}")
+        object.__setattr__(self, name, value)
+
+    def __getstate__(self):
+        return {**self.__dict__, "_machine": (None, None)}
+
+    def __copy__(self):
+        return copy.deepcopy(self)
 
     def _parse(self):
         try:
@@ -163,6 +198,7 @@ class Study:
         exception: the results say so. `progress`: True for a bar, False, or what is called with a task and the fraction
         done of it. An interrupt (Ctrl-C) throws Interrupted, which holds what was found and proved until then.
         """
+        _checked(samples, seed, jobs, time_limit, memory_limit)
         show, wipe = told(progress)
         try:
             held, was_interrupted = self._read(show).run(seed, samples, jobs, time_limit, memory_limit, show)
@@ -176,6 +212,7 @@ class Study:
         """By what factor the uncertain intervals may grow, or must shrink, so that all requirements are met."""
         from .results import Tolerances
 
+        _checked(None, None, jobs, time_limit, None)
         show, wipe = told(progress)
         try:
             nominal, together, alone, was_interrupted = self._read(show).tolerance(jobs, time_limit, show)

@@ -1,7 +1,10 @@
 """Studies as the text of a file."""
 
 import math
+import os
 import re
+
+from . import _gamut
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r", "\b": "\\b", "\f": "\\f"}
@@ -22,20 +25,23 @@ def _number(value):
 
 
 def _value(value, where):
-    if isinstance(value, str):
-        return _text(value)
+    if isinstance(value, (str, os.PathLike)):
+        return _text(os.fspath(value))
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{_key(k)} = {_value(v, f'{where}.{k}')}" for k, v in value.items()) + " }"
-    if hasattr(value, "item") and getattr(value, "ndim", 0) == 0:  # a number of NumPy's
-        return _value(value.item(), where)
     if isinstance(value, int):
         return str(value)
     if isinstance(value, float):
         return _number(value)
-    if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
-        return "[" + ", ".join(_value(v, where) for v in value) + "]"
+    if isinstance(value, _gamut.Interval):
+        return f"[{_number(value.lower)}, {_number(value.upper)}]"
+    if isinstance(value, (list, tuple)):
+        return "[" + ",\n  ".join(_value(v, where) for v in value) + "]" if len(value) > 100 else (
+            "[" + ", ".join(_value(v, where) for v in value) + "]")
+    if hasattr(value, "tolist") and not isinstance(value.tolist(), type(value)):  # of NumPy
+        return _value(value.tolist(), where)
     raise TypeError(f"{where}: a study holds no {type(value).__name__}; expected a number, text, truth, list or dict")
 
 

@@ -230,7 +230,7 @@ std::vector<std::string> EquilibriaResult::told() const {
 
 void EquilibriaResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/equilibria", "positions of rest, proved", *this, fieldsOf));
-  groups.back().inJson = {{"told", ""}, {"lower", "*/0"}, {"upper", "*/1"}};
+  groups.back().inJson = {{"told", ""}, {"coordinate", ""}, {"number", ""}, {"lower", "lower"}, {"upper", "upper"}};
   groups.back().makesSense = [this](std::size_t) { return areOrdered(lower, upper); };
 }
 

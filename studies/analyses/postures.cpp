@@ -293,7 +293,7 @@ std::vector<std::string> PosturesResult::told() const {
 
 void PosturesResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/postures", "postures, proved", *this, fieldsOf));
-  groups.back().inJson = {{"told", ""}, {"lower", "*/0"}, {"upper", "*/1"}};
+  groups.back().inJson = {{"told", ""}, {"coordinate", ""}, {"number", ""}, {"lower", "lower"}, {"upper", "upper"}};
   groups.back().makesSense = [this](std::size_t) { return areOrdered(lower, upper); };
 }
 

@@ -1,6 +1,8 @@
 """Plain differential equations: recorded from Python, enclosed by the same flow."""
 
+import copy
 import math
+import pickle
 from decimal import Decimal, getcontext
 from fractions import Fraction
 
@@ -73,6 +75,42 @@ def test_a_branch_is_refused(function):
         gamut.Flow(function, 1)
 
 
+def test_what_numpy_keeps_to_itself_is_refused_all_the_same():
+    with pytest.raises(TypeError, match="has no value yet"):
+        gamut.Flow(lambda t, x, p: [1.0 if (numpy.array(x) == 0) is True else 2.0, 0.0], 2)
+    with pytest.raises(TypeError, match="has no value yet"):
+        gamut.Program(lambda t, x, p: [float(numpy.array_equal(x, [0, 0]))], 2)
+
+
+def test_numbers_are_enclosed_as_they_are_given():
+    third, tenth, great = Fraction(1, 3), Decimal("0.1"), 2**53 + 1
+    for number in (third, tenth, great, "0.1", numpy.float32(0.1), numpy.int64(7)):
+        x = gamut.Interval(number)
+        exact = Fraction(number.item() if isinstance(number, numpy.generic) else number)
+        assert Fraction(x.lower) <= exact <= Fraction(x.upper)
+    assert third not in gamut.Interval(1 / 3) and great not in gamut.Interval(float(2**53))
+    assert third in gamut.Interval(third) and gamut.Interval(third).width < 1e-16
+    product = gamut.Program(lambda t, x, p: [third * x[0], gamut.Interval("0.1") * x[0]], 1)([gamut.Interval(3)])
+    assert 1 in product[0] and product[0].width > 0 and 3 * Decimal("0.1") in product[1]
+    tube = gamut.Flow(lambda t, x, p: [0 * x[0]], 1).enclose([("0.1", "0.1")], 1.0)
+    assert Decimal("0.1") in tube.at(1.0)[0]
+    with pytest.raises(TypeError, match="component 1 of the box: expected a number"):
+        gamut.Flow(lambda t, x, p: [0, 0], 2).enclose([1, None], 1.0)
+
+
+def test_functions_serve_floats_arrays_and_recorded_numbers():
+    def rate(t, x, p):
+        return [gamut.where(x[0] - 1, 2.0, -x[0]) + gamut.maximum(0.5, x[1]) + gamut.sign(x[1]), x[0]]
+
+    program = gamut.Program(rate, 2)
+    for x in ([2.0, 0.25], [0.5, -3.0], [1.0, 0.0]):
+        assert program(x) == pytest.approx(rate(0.0, x, []))
+    x = numpy.array([0.5, 2.0])
+    assert list(gamut.where(x - 1, x, -x)) == [-0.5, 2.0]
+    each = gamut.Program(lambda t, x, p: gamut.maximum(numpy.array(x), 0.0), 2)
+    assert each([-1.0, 2.0]) == [0.0, 2.0]
+
+
 def test_math_is_refused_with_what_to_use():
     with pytest.raises(TypeError, match=r"gamut\.sin"):
         gamut.Flow(lambda t, x, p: [math.sin(x[0])], 1)
@@ -84,8 +122,10 @@ def test_where_and_maximum_take_the_place_of_branches():
 
 
 def test_what_makes_no_sense_is_refused():
-    with pytest.raises(ValueError):
+    with pytest.raises(ValueError, match="returns 1 rates of 2 states"):
         gamut.Flow(lambda t, x, p: [x[0]], 2)
+    with pytest.raises(TypeError, match="is to return a list of numbers"):
+        gamut.Flow(lambda t, x, p: x[0], 1)
     with pytest.raises(TypeError, match="no option 'tightnes'"):
         gamut.Flow(lambda t, x, p: [x[0]], 1, tightnes=1.1)
     with pytest.raises(ValueError):
@@ -117,3 +157,5 @@ def test_intervals_enclose():
     assert Fraction(root.lower) ** 2 <= 2 <= Fraction(root.upper) ** 2 and gamut.sin(0.5) == numpy.sin(0.5)
     with pytest.raises(ValueError):
         gamut.Interval("one")
+    assert x != None and x != "a" and f"{x:.2f}" == "[1.00, 2.00]"  # noqa: E711
+    assert pickle.loads(pickle.dumps(x)) == x == copy.deepcopy(x)

@@ -6,6 +6,7 @@ import numpy
 import pytest
 
 import gamut
+from conftest import pendulum
 
 
 def test_outputs_have_the_three_answers(results):
@@ -57,12 +58,26 @@ def test_a_dataset_holds_every_array(results):
     assert len(data.data_vars) + len(data.coords) == len(arrays) + 2  # bound, and unit besides
 
 
+def test_what_is_proved_is_not_written_over(results):
+    with pytest.raises(ValueError, match="read-only"):
+        results["angle"].guaranteed.lower[0] = 0.0
+
+
+def test_what_was_not_compared_is_said_so():
+    study = pendulum()
+    study.compare = ["interval"]
+    assert study.run(progress=False).verdict.word == "uncompared"
+
+
 def test_what_is_saved_is_what_is_read(results, tmp_path):
     results.save(tmp_path / "r.h5")
     again = gamut.open(tmp_path / "r.h5")
     assert gamut._gamut.differences(results._held, again._held) == []
-    with pytest.raises(FileExistsError):
+    with pytest.raises(FileExistsError, match="overwrite=True"):
         results.save(tmp_path / "r.h5")
+    with pytest.raises(OSError, match="none"):
+        results.save(tmp_path / "none" / "r.h5")
+    assert gamut.compare(results, tmp_path / "r.h5")["verdict"] == "agree"
     results.save(tmp_path / "r.h5", overwrite=True)
     results.report(tmp_path / "r.html")
     assert (tmp_path / "r.html").read_text().startswith("<!DOCTYPE html>")

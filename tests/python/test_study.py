@@ -1,8 +1,10 @@
 """Studies in Python are study files: the same words, the same numbers, the same refusals."""
 
+import copy
 import json
 import os
 import pathlib
+import pickle
 import subprocess
 import tomllib
 
@@ -42,6 +44,48 @@ def test_settings_know_what_they_are():
         gamut.Study().interval.tightnes = 1.01
     with pytest.raises(TypeError, match="no section 'uncertian'"):
         gamut.Study(uncertian=[])
+
+
+def test_nothing_is_misspelt_in_silence():
+    study = pendulum()
+    with pytest.raises(AttributeError, match="no section 'horizn'; expected one of: .*horizon"):
+        study.horizn = 3
+    with pytest.raises(TypeError, match="uncertain: expected a list of dictionaries"):
+        gamut.Study(uncertain={"name": "length"})
+    with pytest.raises(TypeError, match="mechanism: expected a dictionary"):
+        gamut.Study(mechanism=None)
+    for wrong in ({"samples": -5}, {"samples": 1.5}, {"seed": -1}, {"jobs": 0}, {"time_limit": float("nan")},
+                  {"time_limit": -1}, {"memory_limit": "1 GB"}, {"samples": 10**8}):
+        with pytest.raises(ValueError, match=f"{next(iter(wrong))} = "):
+            study.run(**wrong)
+
+
+def test_a_study_is_its_own():
+    gravity = [0, 0, -9.81]
+    given = {"gravity": gravity, "element": [{"type": "mass", "name": "m", "at": "inertial", "mass": 1.0}]}
+    study = gamut.Study(mechanism=given, horizon=1.0, study={"title": "Own"})
+    study.mechanism["gravity"][2] = -1
+    assert gravity == [0, 0, -9.81] and (study.title, study.horizon) == ("Own", 1.0)
+    for copied in (copy.copy(study), copy.deepcopy(study), pickle.loads(pickle.dumps(study))):
+        copied.horizon = 7
+        assert study.horizon == 1.0 and copied.mechanism == study.mechanism
+    full = pendulum()
+    full.validate()
+    assert copy.deepcopy(full).to_toml() == full.to_toml()
+
+
+def test_paths_stay_what_they_were(tmp_path, monkeypatch):
+    monkeypatch.chdir(EXAMPLES / "robot_arm_moments")
+    study = gamut.Study("study.toml")
+    study.mechanism["urdf"] = pathlib.Path(study.mechanism["urdf"])
+    monkeypatch.chdir(tmp_path)
+    assert study.validate() == []
+
+
+def test_errors_go_through_pickle():
+    error = gamut.StudyError("a.toml:3:4", "is wrong", "right")
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.file, again.line, again.column) == (str(error), "a.toml", 3, 4)
 
 
 def test_numbers_of_numpy_are_numbers():

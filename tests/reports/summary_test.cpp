@@ -54,6 +54,17 @@ TEST(Summary, TellsACoreAsTheStudyStatesIt) {
   EXPECT_EQ(shapeText(results, results.uncertain[0], ShapeKind::membership), "trapezoidal (core 0.9 to 1.1)");
 }
 
+TEST(JsonSummary, TellsEveryPositionInTheOrderOfItsCoordinates) {
+  const Json json = Json::parse(jsonSummary(sampleResults(), findVerdict(sampleResults())));
+  EXPECT_EQ(json["postures"]["lower"], Json::parse("[[-1.0, 0.0], [0.0, 0.5]]"));
+  EXPECT_EQ(json["postures"]["upper"], Json::parse("[[-0.5, 0.0], [0.25, 0.75]]"));
+  EXPECT_EQ(json["postures"]["always"], Json::parse("[1.0, 0.0]"));
+  EXPECT_EQ(json["equilibria"]["lower"], Json::parse("[[-1.0, 0.0], [0.0, 0.5], [1.0, 0.25]]"));
+  EXPECT_EQ(json["equilibria"]["stability"], Json::parse("[1.0, -1.0, 0.0]"));
+  EXPECT_THAT(keysOf(json["postures"]), ElementsAre("always", "complete", "coordinates", "cpu", "goal", "lower", "open",
+                                                    "outputs", "upper", "why"));
+}
+
 TEST(JsonSummary, HasTheDocumentedKeys) {
   const std::string text = jsonSummary(sampleResults(), findVerdict(sampleResults()), {"run.h5", "run.html", 0.0625});
   EXPECT_EQ(text.find('\n'), std::string::npos);
