@@ -3,6 +3,8 @@
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "python/doors.hpp"
@@ -39,15 +41,31 @@ S power(const S& x, const S& y) {
   return S(pow(x, y));
 }
 
+/// By squares, where a program has no power as great.
+template <class S>
+S wholePower(const S& x, long exponent) {
+  constexpr long most = 1024;
+  if (exponent < 0) return S(S(1.0) / wholePower(x, -exponent));
+  if (exponent < most) return S(pow(x, static_cast<int>(exponent)));
+  const S half = sqr(wholePower(x, exponent / 2));
+  return exponent % 2 == 0 ? half : S(half * x);
+}
+
+/// The whole number that this is, exactly, as Python compares them; nothing of others.
+std::optional<long> wholeNumberIn(const py::handle& value) {
+  constexpr long most = 1L << 31;
+  if (!isNumber(value)) return {};
+  const auto whole = py::reinterpret_steal<py::object>(PyNumber_Long(value.ptr()));
+  if (!whole) PyErr_Clear();
+  if (!whole || !whole.equal(value) || !(-py::int_(most) <= whole && whole <= py::int_(most))) return {};
+  return whole.cast<long>();
+}
+
 /// A power that is known: a whole one, or any.
 template <class S>
 S powerOf(const S& x, const py::handle& exponent) {
-  constexpr int most = 1024;
-  if (isNumber(exponent)) {
-    const auto number = py::float_(py::reinterpret_borrow<py::object>(exponent)).cast<double>();
-    if (std::abs(number) < most && number == std::trunc(number)) return S(pow(x, static_cast<int>(number)));
-  }
-  return power(x, numberOf<S>(exponent));
+  const std::optional<long> whole = wholeNumberIn(exponent);
+  return whole ? wholePower(x, *whole) : power(x, numberOf<S>(exponent));
 }
 
 /// What all numbers of ours can.
@@ -121,7 +139,9 @@ void bindInterval(py::module_& module) {
       .def_property_readonly("width", [](const Interval& x) { return width(x); })
       .def_property_readonly("middle", [](const Interval& x) { return midpoint(x); })
       .def("__contains__",
-           [](const Interval& x, const py::object& value) {  // Python compares floats, fractions and decimals exactly
+           [](const Interval& x, py::object value) {  // Python compares ints, floats, fractions and decimals exactly
+             if (py::hasattr(value, "ndim") && py::hasattr(value, "item"))
+               value = value.attr("item")();  // NumPy does not
              if (!py::isinstance<Interval>(value))
                return py::object(py::float_(x.lower())) <= value && value <= py::object(py::float_(x.upper()));
              const auto part = value.cast<Interval>();

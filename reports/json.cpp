@@ -149,12 +149,15 @@ class Teller {
     if (dimensions.empty()) placeOf(object, keys) = valueOf(field.value);
     const std::vector<std::size_t> shape = shapeOf(dimensions, extents_);
     const std::size_t count = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+    const bool hasNoLabels = !dimensions.empty() && std::ranges::none_of(dimensions, hasLabels);
+    if (auto* const* whole = std::get_if<std::vector<std::int64_t>*>(&field.value); whole != nullptr && hasNoLabels)
+      placeOf(object, keys) = **whole;
     const auto* numbers = std::get_if<Numbers>(&field.value);
     std::vector<double> room;
     for (std::size_t end = 0; numbers != nullptr && end < numbers->ends().size(); ++end) {
       const std::span<const double> all = numbers->all(end, room);
       const std::string last = numbers->ends().size() == 1 ? "" : end == 0 ? "/0" : "/1";
-      if (!dimensions.empty() && std::ranges::none_of(dimensions, hasLabels)) {
+      if (hasNoLabels) {
         placeOf(object, keys + last) = arrayOf(all, shape);
         continue;
       }

@@ -33,7 +33,7 @@ def _of_two(name):
         for kind in (_gamut.Recorded, _gamut.Interval):
             if isinstance(x, kind) or isinstance(y, kind):
                 return getattr(x if isinstance(x, kind) else kind(x), name)(y)
-        return of_numpy(x, y)
+        return of_numpy(*(each if isinstance(each, numpy.ndarray) else float(each) for each in (x, y)))
 
     function.__doc__ = f"{name} of floats, arrays, Intervals or recorded numbers."
     return function
@@ -51,9 +51,17 @@ def where(condition, above, below):
         return _gamut.where(condition, above, below)
     if any(isinstance(each, numpy.ndarray) and each.dtype == object for each in (condition, above, below)):
         return numpy.frompyfunc(where, 3, 1)(condition, above, below)
-    sign = numpy.sign(condition)
-    return 0.5 * ((1 + sign) * above + (1 - sign) * below)
-
+    if any(isinstance(each, numpy.ndarray) for each in (condition, above, below)):
+        middle = numpy.where(condition == 0, 0.5 * numpy.asarray(above) + 0.5 * numpy.asarray(below), numpy.nan)
+        return numpy.where(condition > 0, above, numpy.where(condition < 0, below, middle))
+    if isinstance(condition, _gamut.Interval):
+        if condition.lower > 0 or condition.upper < 0:
+            return above if condition.lower > 0 else below
+        ends = [_gamut.Interval(each) for each in (above, below)]
+        return _gamut.Interval(min(each.lower for each in ends), max(each.upper for each in ends))
+    if condition > 0 or condition < 0:
+        return above if condition > 0 else below
+    return above / 2 + below / 2 if condition == 0 else numpy.nan
 
 
 __all__ = [*_ONE, *_TWO, "where"]

@@ -782,7 +782,8 @@ ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, 
     } catch (const StudyError& error) {
       const std::string redundancy = seemingRedundancy(source, table, types, files);
       if (redundancy.empty()) throw;
-      throw StudyError(error.place(), error.problem(), redundancy);
+      throw StudyError(error.place(), error.problem(),
+                       error.expected().empty() ? redundancy : error.expected() + ", or " + redundancy);
     }
   };
   ReadMechanism read = firm();

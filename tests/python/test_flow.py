@@ -92,10 +92,26 @@ def test_numbers_are_enclosed_as_they_are_given():
     assert third in gamut.Interval(third) and gamut.Interval(third).width < 1e-16
     product = gamut.Program(lambda t, x, p: [third * x[0], gamut.Interval("0.1") * x[0]], 1)([gamut.Interval(3)])
     assert 1 in product[0] and product[0].width > 0 and 3 * Decimal("0.1") in product[1]
+    assert numpy.int64(2**53 + 1) not in gamut.Interval(2.0**53)
+    chosen = gamut.Program(lambda t, x, p: [gamut.where(1.0, third, tenth) + 0 * x[0]], 1)([gamut.Interval(1)])
+    assert third in chosen[0]
     tube = gamut.Flow(lambda t, x, p: [0 * x[0]], 1).enclose([("0.1", "0.1")], 1.0)
     assert Decimal("0.1") in tube.at(1.0)[0]
     with pytest.raises(TypeError, match="component 1 of the box: expected a number"):
         gamut.Flow(lambda t, x, p: [0, 0], 2).enclose([1, None], 1.0)
+
+
+def test_powers_are_of_the_exponent_that_is_given():
+    nearly_two = Fraction(2**60 + 1, 2**59)
+    truth = Decimal(10) ** (Decimal(nearly_two.numerator) / nearly_two.denominator)
+    recorded = gamut.Program(lambda t, x, p: [x[0] ** nearly_two, x[0] ** 2, x[0] ** 2000, x[0] ** -1025], 1)
+    assert truth in gamut.Interval(10) ** nearly_two and truth in recorded([gamut.Interval(10)])[0]
+    assert Decimal(10) ** Decimal("2.00000000000000000001") in gamut.Interval(10) ** Decimal("2.00000000000000000001")
+    for base, exponent in ((-1, 1024), (Fraction(-101, 100), 1025), (Fraction(-9, 8), 2000), (-2, -1025)):
+        assert Fraction(base) ** exponent in gamut.Interval(base) ** exponent
+    exact = [Fraction(-9, 8) ** 2, Fraction(-9, 8) ** 2000, Fraction(-9, 8) ** -1025]
+    found = recorded([gamut.Interval(-1.125)])[1:]
+    assert all(number in interval for number, interval in zip(exact, found))
 
 
 def test_functions_serve_floats_arrays_and_recorded_numbers():
@@ -106,7 +122,9 @@ def test_functions_serve_floats_arrays_and_recorded_numbers():
     for x in ([2.0, 0.25], [0.5, -3.0], [1.0, 0.0]):
         assert program(x) == pytest.approx(rate(0.0, x, []))
     x = numpy.array([0.5, 2.0])
-    assert list(gamut.where(x - 1, x, -x)) == [-0.5, 2.0]
+    assert list(gamut.where(x - 1, x, -x)) == [-0.5, 2.0] and gamut.where(0.0, 1.0, 2.0) == 1.5
+    assert gamut.where(gamut.Interval(-1, 1), 2, 3) == gamut.Interval(2, 3) and gamut.where(1, third := Fraction(1, 3), 0) == third
+    assert gamut.hypot(Fraction(3), 4.0) == 5.0
     each = gamut.Program(lambda t, x, p: gamut.maximum(numpy.array(x), 0.0), 2)
     assert each([-1.0, 2.0]) == [0.0, 2.0]
 

@@ -96,8 +96,10 @@ def test_numbers_of_numpy_are_numbers():
 
 
 def test_what_no_file_holds_is_refused():
+    study = pendulum()
+    study.title = object()
     with pytest.raises(TypeError, match="study.title: a study holds no object"):
-        pendulum(study={"title": object()}).to_toml()
+        study.to_toml()
 
 
 def test_a_refusal_says_where():

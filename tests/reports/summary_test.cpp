@@ -58,11 +58,11 @@ TEST(JsonSummary, TellsEveryPositionInTheOrderOfItsCoordinates) {
   const Json json = Json::parse(jsonSummary(sampleResults(), findVerdict(sampleResults())));
   EXPECT_EQ(json["postures"]["lower"], Json::parse("[[-1.0, 0.0], [0.0, 0.5]]"));
   EXPECT_EQ(json["postures"]["upper"], Json::parse("[[-0.5, 0.0], [0.25, 0.75]]"));
-  EXPECT_EQ(json["postures"]["always"], Json::parse("[1.0, 0.0]"));
+  EXPECT_EQ(json["postures"]["always"], Json::parse("[1, 0]"));
   EXPECT_EQ(json["equilibria"]["lower"], Json::parse("[[-1.0, 0.0], [0.0, 0.5], [1.0, 0.25]]"));
-  EXPECT_EQ(json["equilibria"]["stability"], Json::parse("[1.0, -1.0, 0.0]"));
+  EXPECT_EQ(json["equilibria"]["stability"], Json::parse("[1, -1, 0]"));
   EXPECT_THAT(keysOf(json["postures"]), ElementsAre("always", "complete", "coordinates", "cpu", "goal", "lower", "open",
-                                                    "outputs", "upper", "why"));
+                                                    "outputs", "reached", "upper", "why"));
 }
 
 TEST(JsonSummary, HasTheDocumentedKeys) {

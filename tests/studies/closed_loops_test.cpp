@@ -412,6 +412,16 @@ TEST(ClosedLoopStudy, NamesBothLoopsThatHoldTheSame) {
               HasSubstr("the loops 'one', 'other' start where rows of one and the other say the same"));
 }
 
+TEST(ClosedLoopStudy, RefusesRigidStopsInTheirPlace) {
+  const std::string text =
+      replaced(fourBarText("1", ""), "[[output]]",
+               "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"stop\"\njoint = \"A\"\nat = 0.5\n"
+               "restitution = 0.8\nend = \"lower\"\n[[output]]");
+  EXPECT_THAT(refusalOf(text),
+              ::testing::MatchesRegex("s.toml:[0-9]+:[0-9]+: .*'A.angle' strikes a rigid end in a machine "
+                                      "with constraints; expected an elastic end.*"));
+}
+
 /// In the units in which numbers are stated, a few digits.
 TEST(ClosedLoopStudy, SaysForWhichNumbersALoopIsNotProvedToClose) {
   const std::string text =
