@@ -7,6 +7,7 @@
 #include "analyses/flow/series/embedded.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/differentiation.hpp"
+#include "scalars/program/expression.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
@@ -43,6 +44,15 @@ std::vector<char> curvesOf(const Program& f, const std::vector<int>& varying) {
   return result;
 }
 
+/// Whether a sign or an absolute value has another argument that is the same operations: constants that are no doubles
+/// then count as one number by their enclosures (expression.hpp), but are two, for one number is one node.
+bool isAmbiguous(const Program& f, int argument) {
+  for (const Node& node : f.nodes())
+    if ((node.op == Op::abs || node.op == Op::sign) && node.a != argument && isSameExpression(f, node.a, f, argument))
+      return true;
+  return false;
+}
+
 /// The nodes |u| that f needs, of linear u without inputs and, if they are few, of such that are not linear.
 std::vector<int> kinksOf(const Program& differentiated, const std::vector<int>& varying, bool withCurved,
                          std::vector<KinkArgument>& arguments) {
@@ -53,7 +63,7 @@ std::vector<int> kinksOf(const Program& differentiated, const std::vector<int>& 
     const Node& node = differentiated.nodes()[i];
     if (isNeeded[i] == 0 || node.op != Op::abs) continue;
     auto form = linearFormOf(differentiated, node.a);
-    bool isKnown = form || (withCurved && isCurve[node.a] != 0);
+    bool isKnown = form || (withCurved && isCurve[node.a] != 0 && !isAmbiguous(differentiated, node.a));
     for (const int input : varying) isKnown = isKnown && (!form || form->parameters[input] == 0);
     if (isKnown) found.emplace_back(static_cast<int>(i), std::move(form));
   }

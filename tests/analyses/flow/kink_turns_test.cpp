@@ -2,6 +2,7 @@
 // a few are enough.
 #include <cmath>
 
+#include "analyses/flow/step/kinks.hpp"
 #include "tests/analyses/flow/expect_events.hpp"
 
 namespace gamut::testing {
@@ -149,6 +150,19 @@ TEST(FlowKinkTurn, WhatGrazesIsInside) {
   c.horizon = 2;
   for (int i = 1; i < 16; ++i) c.times.push_back(i / 8.0);
   expectEvents(c, 12);
+}
+
+/// Two numbers that doubles enclose alike are two: neither kink is passed with the other.
+TEST(FlowKinks, TellsNumbersApartWhoseEnclosuresAreOne) {
+  const auto passed = [](const char* one, const char* other) {
+    const Program f = record(1, 0, [&](auto, const auto& x, const auto&, auto& dx) {
+      const Recorded u = sin(x[0]);
+      dx[0] = abs(u - constant<Recorded>(Interval(one))) + abs(u - constant<Recorded>(Interval(other)));
+    });
+    return FlowKinks(f.differentiated(), {}, true).count();
+  };
+  EXPECT_EQ(passed("0.1", "0.2"), 2U);
+  EXPECT_EQ(passed("0.1", "0.09999999999999999999"), 0U);
 }
 
 }  // namespace
