@@ -1,19 +1,20 @@
-// By branch and prune over the region. Stability of forces that have a potential: by the inertia of the stiffness
-// K = −∂R/∂q at one value of the quantities, which is that of all, for K is regular where a position is proved for
-// them.
+// By branch and prune over the region; stability by the motion near to each position (mechanics/rest_stability.hpp).
 #include "studies/analyses/equilibria.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "analyses/flow/flow.hpp"
 #include "analyses/roots/all_roots.hpp"
 #include "mechanics/rest.hpp"
 #include "mechanics/rest_equations.hpp"
+#include "mechanics/rest_stability.hpp"
 #include "scalars/evaluation/evaluate.hpp"
 #include "studies/analyses/found_positions.hpp"
 #include "studies/analysis.hpp"
@@ -25,8 +26,6 @@
 
 namespace gamut {
 namespace {
-
-using Stability = EquilibriaResult::Stability;
 
 std::vector<Field> fieldsOf(EquilibriaResult& e) {
   constexpr std::string_view position = "/equilibria/number", coordinate = "/equilibria/coordinate";
@@ -46,27 +45,82 @@ std::vector<Field> fieldsOf(EquilibriaResult& e) {
        {"stability",
         &e.stability,
         unit::one,
-        "1 stable, -1 unstable, 0 not known; by the stiffness, of forces that have a potential and of resistances that "
-        "take energy alone",
+        "1 stable, -1 unstable, 0 not known; by the motion near to it, where forces of position have a potential",
         {position}}});
-}
-
-/// Of a position that is regular for all parameters. Bordered by the rows of loops K has a negative eigenvalue more for
-/// each of these (W. C. Chabrillac & J.-P. Crouzeix, Linear Algebra and its Applications 63, 1984).
-Stability stabilityOf(const RestEquations& equations, const RootPart& part) {
-  Box middle;
-  for (const Interval& each : part.parameters) middle.emplace_back(midpoint(each));
-  const AllRoots there = allRoots(equations.roots, part.root, middle);
-  const Box& root = there.families.size() == 1 ? there.families.front().root : part.root;
-  const int loops = std::max(0, static_cast<int>(equations.multipliers.size()) - 1),
-            n = equations.roots.states() - (loops > 0 ? 1 : 0);
-  const std::optional<int> negatives =
-      negativeEigenvalues(evaluate<Interval>(equations.stiffness, root, middle, Interval(0.0)), n);
-  return !negatives ? Stability::unknown : *negatives == loops ? Stability::stable : Stability::unstable;
 }
 
 bool isWithin(const Box& a, const Box& b) {
   return std::ranges::equal(a, b, [](const Interval& x, const Interval& y) { return isSubset(x, y); });
+}
+
+/// Of the number that is widest beside its size; none where no number is wide.
+std::optional<std::array<Box, 2>> halvesOf(const Box& box) {
+  const auto share = [](const Interval& x) { return width(x) / magnitude(x); };  // NaN of a 0 without width
+  std::size_t widest = box.size();
+  for (std::size_t i = 0; i < box.size(); ++i)
+    if (width(box[i]) > 0 && (widest == box.size() || share(box[i]) > share(box[widest]))) widest = i;
+  if (widest == box.size()) return {};
+  std::array<Box, 2> halves = {box, box};
+  const double middle = midpoint(box[widest]);
+  halves[0][widest] = Interval(box[widest].lower(), middle);
+  halves[1][widest] = Interval(middle, box[widest].upper());
+  return halves;
+}
+
+/// Near a root of the equations, along the loops.
+std::optional<NearRest> nearRest(const RestEquations& equations, const Box& root, const Box& parameters) {
+  return NearRest::of(equations.coordinates, evaluate<Interval>(equations.nearRest, root, parameters, Interval(0.0)))
+      .reduced();
+}
+
+/// The root of some of a part's parameters.
+Box rootAt(const RestEquations& equations, const RootPart& part, const Box& parameters) {
+  const AllRoots there = allRoots(equations.roots, part.root, parameters);
+  return there.families.size() == 1 ? there.families.front().root : part.root;
+}
+
+/// How many eigenvalues of K are negative at one value of the parameters, which is so at all: K is regular where a
+/// position is proved for them. Nothing where forces have no potential, at that value or at two others.
+std::optional<int> negativesOf(const RestEquations& equations, const RootPart& part) {
+  Box middle, low, high;
+  for (const Interval& each : part.parameters) {
+    middle.emplace_back(midpoint(each));
+    low.emplace_back(each.lower());
+    high.emplace_back(each.upper());
+  }
+  for (const Box& values : {low, high})
+    if (const auto near = nearRest(equations, rootAt(equations, part, values), values);
+        near && !near->mayHavePotential())
+      return {};
+  const std::optional<NearRest> near = nearRest(equations, rootAt(equations, part, middle), middle);
+  return near ? negativeEigenvalues(near->stiffness, near->n) : std::nullopt;
+}
+
+/// Of a position that is proved, for all parameters: their box is halved until it is known of each part, or too many
+/// are tried.
+RestStability stabilityOf(const RestEquations& equations, const RootBranch& family) {
+  std::set<RestStability> found;
+  std::size_t tries = 64;
+  for (const RootPart& part : family.parts) {
+    const std::optional<int> negatives = negativesOf(equations, part);
+    if (!negatives) return RestStability::unknown;
+    std::vector<Box> open{part.parameters};
+    while (!open.empty()) {
+      const Box parameters = std::move(open.back());
+      open.pop_back();
+      const Box root = isWithin(part.parameters, parameters) ? part.root : rootAt(equations, part, parameters);
+      const std::optional<NearRest> near = nearRest(equations, root, parameters);
+      const RestStability its = near ? stabilityOf(*near, *negatives) : RestStability::unknown;
+      if (its != RestStability::unknown) {
+        found.insert(its);
+        continue;
+      }
+      const std::optional<std::array<Box, 2>> halves = halvesOf(parameters);
+      if (!halves || --tries == 0) return RestStability::unknown;
+      open.insert(open.end(), halves->begin(), halves->end());
+    }
+  }
+  return found.size() == 1 ? *found.begin() : RestStability::unknown;
 }
 
 bool meets(const Box& a, const Box& b) {
@@ -171,7 +225,7 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
         result.lower(k, i) = found.families[k].root[i].lower();
         result.upper(k, i) = found.families[k].root[i].upper();
       }
-      result.stability.push_back(static_cast<std::int64_t>(stabilityOf(equations, found.families[k].parts.front())));
+      result.stability.push_back(static_cast<std::int64_t>(stabilityOf(equations, found.families[k])));
     }
     if (result.isComplete) return;
     result.why =

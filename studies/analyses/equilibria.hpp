@@ -14,13 +14,11 @@ namespace gamut {
 /// Positions of rest in a region: each is there, and the only one in its bounds, for all values of the uncertain
 /// quantities.
 struct EquilibriaResult final : FurtherPart {
-  enum class Stability : std::int64_t { unstable = -1, unknown = 0, stable = 1 };
-
   std::string coordinates;  ///< their names, with commas; their numbers are the columns of positions
   std::string units;        ///< in which people are told of these, with commas; empty: rad, m
   std::vector<double> coordinate, number;
   Grid lower, upper;                    ///< position, coordinate; rad, m
-  std::vector<std::int64_t> stability;  ///< of each position, as Stability
+  std::vector<std::int64_t> stability;  ///< of each position, as RestStability
   std::int64_t open = 0;                ///< parts of the region in which there may be others
   bool isComplete = false;              ///< for every value all that are in the region
 

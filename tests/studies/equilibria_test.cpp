@@ -432,6 +432,47 @@ TEST(Equilibria, OfALoopAreFoundHoweverItIsAssembled) {
   EXPECT_EQ(left, 2);
 }
 
+/// A pendulum that a force drives the way it turns.
+TEST(Equilibria, AreUnstableWhereResistancesGiveEnergy) {
+  const std::string bob = "gravity = [0, \"-9.81\", 0]\n" + hinge("A", "inertial", "K", "\"-80 deg\"") +
+                          element("mass", "bob", "at = \"K\"\nmass = 1\ncentre = [\"0.3\", 0, 0]");
+  const auto stabilityWith = [&](const std::string& elements, const std::string& uncertainties = "") {
+    const Results results = run(
+        machineOf(studyOf(bob + elements + uncertainties, output("A.angle")) + "[equilibria]\nangles = \"100 deg\"\n"),
+        {});
+    EXPECT_TRUE(results.of<EquilibriaResult>().isComplete);
+    return results.of<EquilibriaResult>().stability;
+  };
+  const auto damper = [](const std::string& c) {
+    return element("joint-spring", "d", "joint = \"A\"\nstiffness = 0\ndamping = \"" + c + "\"");
+  };
+  using Found = std::vector<std::int64_t>;
+  EXPECT_EQ(stabilityWith(""), (Found{1}));
+  EXPECT_EQ(stabilityWith(damper("0.1")), (Found{1}));
+  EXPECT_EQ(stabilityWith(damper("-0.1")), (Found{-1}));
+  EXPECT_EQ(stabilityWith(element("joint-force", "d", "joint = \"A\"\nforce = \"(0.1 N m s/rad)*A.rate\"")),
+            (Found{-1}));
+  EXPECT_EQ(stabilityWith(element("joint-force", "d", "joint = \"A\"\nforce = \"-(0.1 N m s/rad)*A.rate\"")),
+            (Found{1}));
+  EXPECT_EQ(stabilityWith(damper("0.1"), uncertain("d.damping", "± 15 %")), (Found{1}));
+  EXPECT_EQ(stabilityWith(damper("0.1"), "[[uncertain]]\nquantity = \"d.damping\"\ninterval = [\"-0.01\", \"0.2\"]\n"),
+            (Found{0}));
+}
+
+/// On a coordinate that closes the loop.
+TEST(Equilibria, OfALoopAreUnstableWhereAJointGivesEnergy) {
+  for (const auto& [damping, sign] : {std::pair{"0.5", 1}, {"-0.5", -1}}) {
+    const std::string damper =
+        element("joint-spring", "d", std::string("joint = \"D\"\nstiffness = 0\ndamping = \"") + damping + "\"");
+    const Results results =
+        run(machineOf(studyOf(linkage() + damper, output("A.angle")) + "[equilibria]\nangles = \"180 deg\"\n"), {});
+    const EquilibriaResult& all = results.of<EquilibriaResult>();
+    ASSERT_EQ(all.number.size(), 4) << all.why;
+    EXPECT_EQ(std::ranges::count(all.stability, 1), sign > 0 ? 2 : 0);
+    EXPECT_EQ(std::ranges::count(all.stability, -1), sign > 0 ? 2 : 4);
+  }
+}
+
 /// The region ends where the lever rests for some values.
 TEST(Equilibria, AreNotToldAsAllWhereOneMayLeaveTheRegion) {
   const Results results = run(machineOf(toggles(1, "± 2 %", "0.1 rad")), {});
