@@ -16,12 +16,32 @@ namespace {
 
 using detail::at;
 
-/// Unknowns and equations, in the order of the passes: q̈, then what is cut; equation q̈ count + i defines unknown i.
+/// Unknowns: q̈ and the constraints' multipliers λ, then, in the order of the passes, what is cut. Equations: what
+/// defines each of the latter, then those that are zero.
 struct Cuts {
   std::vector<int> unknowns;  // nodes
-  std::vector<int> values;    // nodes: what the passes give for each cut, then the generalised forces
-  std::vector<char> isCut;    // of the components met on the way: known zeros need no cut
+  std::size_t degrees = 0, multipliers = 0;
+  std::vector<int> values;  // nodes: what the passes give for each cut, then the generalised forces and the rows
+  std::vector<char> isCut;  // of the components met on the way: known zeros need no cut
+
+  std::size_t free() const { return degrees + multipliers; }
 };
+
+/// Of the constraints, one after the other.
+void setMultipliers(System<Recorded>& system, std::span<const Recorded> all) {
+  for (Constraint<Recorded>* constraint : system.chain().constraints()) {
+    const std::size_t rows = constraint->residuals().size();
+    constraint->setMultipliers({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows)});
+    all = all.subspan(rows);
+  }
+}
+
+/// After a pass: generalised forces, then the constraints' rows.
+std::vector<Recorded> zerosOf(System<Recorded>& system) {
+  std::vector<Recorded> zeros = system.generalisedForces();
+  for (Recorded& row : system.openingAccelerations()) zeros.push_back(std::move(row));
+  return zeros;
+}
 
 Cuts cutEverywhere(System<Recorded>& system) {
   Recorder& recorder = *Recorder::current();
@@ -30,15 +50,19 @@ Cuts cutEverywhere(System<Recorded>& system) {
     cuts.unknowns.push_back(recorder.unknown());
     return Recorded::node(cuts.unknowns.back());
   };
-  std::vector<Recorded> accelerations;
-  for (int i = 0; i < system.degreesOfFreedom(); ++i) accelerations.push_back(unknown());
+  std::vector<Recorded> accelerations, multipliers;
+  cuts.degrees = at(system.degreesOfFreedom());
+  cuts.multipliers = system.residuals().size();
+  while (accelerations.size() < cuts.degrees) accelerations.push_back(unknown());
+  while (multipliers.size() < cuts.multipliers) multipliers.push_back(unknown());
+  setMultipliers(system, multipliers);
   system.pass(accelerations, [&](Recorded& component) {
     cuts.isCut.push_back(!isKnownZero(component));
     if (cuts.isCut.back() == 0) return;
     cuts.values.push_back(component.node());
     component = unknown();
   });
-  for (const Recorded& force : system.generalisedForces()) cuts.values.push_back(force.node());
+  for (const Recorded& zero : zerosOf(system)) cuts.values.push_back(zero.node());
   return cuts;
 }
 
@@ -46,26 +70,27 @@ Cuts cutEverywhere(System<Recorded>& system) {
 std::vector<Recorded> constantParts(System<Recorded>& system, const Cuts& cuts) {
   std::vector<Recorded> constants;
   std::size_t next = 0;
-  system.pass(std::vector<Recorded>(system.degreesOfFreedom()), [&](Recorded& component) {
+  setMultipliers(system, std::vector<Recorded>(cuts.multipliers));
+  system.pass(std::vector<Recorded>(cuts.degrees), [&](Recorded& component) {
     if (cuts.isCut[next++] != 0) constants.push_back(component);
     component = Recorded(0.0);
   });
-  for (const Recorded& force : system.generalisedForces()) constants.push_back(force);
+  for (Recorded& zero : zerosOf(system)) constants.push_back(std::move(zero));
   return constants;
 }
 
-/// Row by row: unknown − ∂value/∂unknowns for each cut, −∂Q/∂unknowns for each generalised force.
-LinearReduction::Rows matrixOf(const Cuts& cuts, std::size_t degrees) {
-  const std::size_t n = cuts.unknowns.size();
+/// Row by row: unknown − ∂value/∂unknowns for each cut, −∂value/∂unknowns for what is zero.
+LinearReduction::Rows matrixOf(const Cuts& cuts) {
+  const std::size_t n = cuts.unknowns.size(), free = cuts.free();
   Directions directions(*Recorder::current(), cuts.values);
   LinearReduction::Rows matrix(n);
   for (std::size_t j = 0; j < n; ++j) {
     const auto column = static_cast<int>(j);
-    if (j >= degrees) matrix[j - degrees][column] = 1.0;
+    if (j >= free) matrix[j - free][column] = 1.0;
     for (const auto& [i, node] : directions.along(cuts.unknowns[j])) {
       const Recorded derivative = Recorded::node(node);
       Recorded& entry = matrix[i][column];
-      entry = at(i) + degrees == j ? 1.0 - derivative : -derivative;
+      entry = at(i) + free == j ? 1.0 - derivative : -derivative;
     }
   }
   return matrix;
@@ -97,10 +122,9 @@ std::vector<Recorded> restOf(const LinearReduction::Rows& matrix, const LinearRe
 }  // namespace
 
 std::vector<Recorded> sparseAccelerations(System<Recorded>& system) {
-  const std::size_t degrees = at(system.degreesOfFreedom());
   const Cuts cuts = cutEverywhere(system);
   std::vector<Recorded> right = constantParts(system, cuts);
-  LinearReduction::Rows matrix = matrixOf(cuts, degrees);
+  LinearReduction::Rows matrix = matrixOf(cuts);
 
   const LinearReduction reduction(matrix);
   reduction.reduce(right);
@@ -111,7 +135,8 @@ std::vector<Recorded> sparseAccelerations(System<Recorded>& system) {
     LinearSystem<Recorded>(MatrixKind::general, static_cast<int>(restRight.size()), std::move(rest)).solve(restRight);
   for (std::size_t i = 0; i < restRight.size(); ++i) x[reduction.columns()[i]] = restRight[i];
   reduction.complete(right, x);
-  x.resize(degrees);
+  setMultipliers(system, std::span<const Recorded>(x).subspan(cuts.degrees, cuts.multipliers));
+  x.resize(cuts.degrees);
   return x;
 }
 

@@ -4,8 +4,8 @@
 // M u̇ = Q: the inertia matrix M from the inertia forces at unit accelerations, Q the forces that remain at u̇ = 0. Up to
 // two speeds are eliminated (least_constraint.hpp); systems of more are solved joint by joint, in the fewest operations
 // (articulated_bodies.hpp), or as wholes, cut at the joints for enclosures (sparse_equations.hpp). With constraints, M
-// is bordered by their rows. With gears, what a joint moves is more than what hangs on it, so that M takes the place of
-// the way joint by joint. No path depends on a scalar's value.
+// is bordered by their rows, or multipliers are unknowns of the latter. With gears, what a joint moves is more than
+// what hangs on it, so that M takes the place of the way joint by joint. No path depends on a scalar's value.
 //
 // Of a machine that closes on itself some speeds depend on the others: with the constraints' rows g(q) = 0 and their
 // Jacobian J = (J_i, J_d), u_d = −J_d⁻¹ (J_i u_i + g_t). Positions are states all of them, and those of dependent
@@ -68,6 +68,8 @@ class System {
   std::vector<S> openingRates() const {
     return ofConstraints([](const Constraint<S>& constraint) { return constraint.rates(); });
   }
+  /// g̈ + 2 σ ġ + σ² g for the accelerations of the present motion, which are zero in it; σ is α where loops are held.
+  std::vector<S> openingAccelerations() const;
   /// α [1/s].
   static constexpr double pull = 20;
 
@@ -163,8 +165,9 @@ class System {
   std::vector<S> solved();
   std::vector<S> solvedByInertia();
 
-  /// With the multipliers of the constraints: M u̇ − Gᵀ λ = Q, G u̇ = −g̈(u̇ = 0) − 2 σ ġ − σ² g.
+  /// With the multipliers of the constraints: M u̇ − Gᵀ λ = Q, G u̇ = −g̈(u̇ = 0) − 2 σ ġ − σ² g; of Recorded sparsely.
   std::vector<S> constrained();
+  std::vector<S> bordered();
 
   /// The same where all rows have a dependent speed: u̇ = T u̇_i + γ, with J T = 0, and Tᵀ M T u̇_i = Tᵀ (Q − M γ).
   std::vector<S> projected();

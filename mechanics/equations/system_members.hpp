@@ -67,7 +67,7 @@ std::vector<S> System<S>::accelerations(Formulation formulation) {
   const bool isFree = formulation != Formulation::bordered && dependents_ > 0 && !areHeld_ &&
                       (isArticulated || speeds_.size() - dependents_ <= mostEliminated);
   const auto found = [&] {
-    if (isConstrained()) return isFree ? projected() : constrained();
+    if (isConstrained()) return isFree ? projected() : formulation == Formulation::sparse ? constrained() : bordered();
     if (speeds_.size() <= mostEliminated) return eliminated();
     if (!isArticulated) return solved();
     return chain_.hasGears() ? solvedByInertia() : articulatedAccelerations(speeds_, chain_, base_);
@@ -402,18 +402,30 @@ std::vector<S> System<S>::projected() {
 }
 
 template <class S>
-std::vector<S> System<S>::constrained() {
-  for (Constraint<S>* constraint : chain_.constraints()) constraint->setMultipliers({});
-  std::vector<S> right = residual();
-  const std::vector<S> atRest = ofConstraints([this](Constraint<S>& constraint) {
+std::vector<S> System<S>::openingAccelerations() const {
+  return ofConstraints([this](Constraint<S>& constraint) {
     std::vector<S> rows = constraint.accelerations(MotionLevel::all);
     const std::vector<S> rates = constraint.rates(), residuals = constraint.residuals();
     const S sigma = areHeld_ ? S(pull) : constraint.stabilisation();
     for (std::size_t i = 0; i < rows.size(); ++i)
-      rows[i] = -rows[i] - S(2.0) * sigma * rates[i] - square(sigma) * residuals[i];
+      rows[i] = rows[i] + S(2.0) * sigma * rates[i] + square(sigma) * residuals[i];
     return rows;
   });
-  right.insert(right.end(), atRest.begin(), atRest.end());
+}
+
+template <class S>
+std::vector<S> System<S>::constrained() {
+  if constexpr (std::is_same_v<S, Recorded>)
+    return sparseAccelerations(*this);
+  else
+    return bordered();
+}
+
+template <class S>
+std::vector<S> System<S>::bordered() {
+  for (Constraint<S>* constraint : chain_.constraints()) constraint->setMultipliers({});
+  std::vector<S> right = residual();
+  for (const S& row : openingAccelerations()) right.push_back(-row);
 
   const int f = degreesOfFreedom(), size = static_cast<int>(right.size());
   const auto m = inertiaMatrix();

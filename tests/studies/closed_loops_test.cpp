@@ -80,6 +80,36 @@ TEST(ClosedLoopStudy, EnclosesAFourBarOfOneSetOfLengths) {
   EXPECT_THAT(tube.outputs(tube.reachedTimes() - 1)[1], testing::Encloses(truth[1]));
 }
 
+/// The four-bar at the end of an arm of so many links, which turn about these axes in turn.
+std::string onAnArm(int links, const std::vector<std::string>& axes) {
+  std::string text = fourBarText("1", ""), arm, before = "inertial";
+  for (int i = 0; i < links; ++i) {
+    const std::string number = std::to_string(i);
+    arm += fmt::format(
+        "[[mechanism.element]]\ntype = \"revolute\"\nname = \"J{0}\"\nfrom = \"{1}\"\nto = \"F{0}\"\naxis = \"{2}\"\n"
+        "initial = {{ angle = \"{3} deg\" }}\n[[mechanism.element]]\ntype = \"mass\"\nname = \"M{0}\"\nat = \"F{0}\"\n"
+        "mass = 1\ncentre = [0, \"-0.15\", \"0.02\"]\ninertia = [\"0.01\", \"0.01\", \"0.01\"]\n"
+        "[[mechanism.element]]\ntype = \"link\"\nname = \"L{0}\"\nfrom = \"F{0}\"\nto = \"E{0}\"\nvector = [0, "
+        "\"-0.3\", "
+        "0]\n",
+        number, before, axes[i % axes.size()], i == 0 ? 30 : 5);
+    before = "E" + number;
+  }
+  for (auto at = text.find("\"inertial\""); at != std::string::npos; at = text.find("\"inertial\"", at))
+    text.replace(at, 10, "\"" + before + "\"");
+  return text.insert(text.find("[[mechanism.element]]"), arm);
+}
+
+TEST(ClosedLoopStudy, IsAsTightAtTheEndOfAnArm) {
+  for (const auto& [links, axes] :
+       {std::pair<int, std::vector<std::string>>{3, {"z"}}, {5, {"z"}}, {10, {"z"}}, {6, {"z", "x"}}}) {
+    const Results results = run(machineOf(onAnArm(links, axes)), {});
+    EXPECT_EQ(results.interval.reached, 1) << links << " " << results.interval.why;
+    EXPECT_LE(results.interval.at.upper(1, 0) - results.interval.at.lower(1, 0), 1e-7) << links;
+    EXPECT_EQ(results.comparison.verdict, Agreement::inside) << links;
+  }
+}
+
 TEST(ClosedLoopStudy, EnclosesAFourBarOfAnyLengthsWithinTheirTolerances) {
   const Machine machine = machineOf(fourBarText("1", uncertain({"a", "b", "c", "d"}, "± 0.1 %")));
   const Tube tube = enclosed(machine);
