@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "analyses/distribution.hpp"
+#include "mechanics/description/fields.hpp"
 #include "mechanics/description/words.hpp"
 #include "scalars/membership.hpp"
 #include "studies/settings.hpp"
@@ -182,6 +183,53 @@ class SchemaWriter final : public Settings {
   Json properties_ = Json::object(), required_ = Json::array();
 };
 
+Json listSchema(Json items, std::size_t least, std::size_t most) {
+  return {{"type", "array"}, {"items", std::move(items)}, {"minItems", least}, {"maxItems", most}};
+}
+
+/// { axis, angle }, a list of these, { roll, pitch, yaw } or { quaternion }.
+Json rotationSchema(const Json& direction) {
+  const Json about = {{"axis", direction}, {"angle", numberSchema()}};
+  Json items = closedTable(about), one = about;
+  items["required"] = {"axis", "angle"};
+  for (const char* name : rollPitchYawNames) one[name] = numberSchema();
+  one["quaternion"] = listSchema(numberSchema(), 4, 4);
+  Json schema = closedTable(std::move(one));
+  schema["type"] = {"array", "object"};
+  schema["items"] = std::move(items);
+  return schema;
+}
+
+Json writtenSchema(const Written& written) {
+  const Json name = {{"type", "string"}};
+  const Json direction = {{"type", {"string", "array"}},
+                          {"pattern", "^-?[xyz]$"},
+                          {"items", numberSchema()},
+                          {"minItems", 3},
+                          {"maxItems", 3}};
+  switch (written.kind) {
+    case Written::Kind::name:
+      return name;
+    case Written::Kind::word:
+      return {{"enum", written.words}};
+    case Written::Kind::direction:
+      return direction;
+    case Written::Kind::rotation:
+      return rotationSchema(direction);
+    case Written::Kind::whole:
+      return {{"type", "integer"}, {"minimum", written.least}, {"maximum", written.most}};
+    case Written::Kind::number:
+      return numberSchema();
+    case Written::Kind::numbers:
+      return listSchema(numberSchema(), written.least, written.most);
+    case Written::Kind::points:
+      return {{"type", "array"}, {"items", listSchema(numberSchema(), 3, 3)}, {"minItems", 1}};
+    case Written::Kind::names:
+      return {{"type", "array"}, {"items", name}, {"minItems", 1}};
+  }
+  return Json::object();
+}
+
 /// The keys of one type of element, beside those that all have.
 Json elementSchema(const Described& type) {
   const ElementWords turning = wordsOf(type), sliding = wordsOf(type, Coordinate::displacement);
@@ -190,12 +238,13 @@ Json elementSchema(const Described& type) {
                      {"parameters", Json{{"type", "object"}}}};
   Json initial = Json::object(), required = Json::array({"type", "name"});
   for (std::size_t i = 0; i < turning.keys.size(); ++i) {
-    const auto& [word, isInitial, example] = turning.keys[i];
+    const auto& [word, written, isInitial, example] = turning.keys[i];
     const std::string other = sliding.keys[i].word.unit;
     const std::string unit = word.unit == other ? word.unit : word.unit + " or " + other;
     const std::string meaning =
         word.meaning + (unit.empty() ? "" : fmt::format("{}[{}]", word.meaning.empty() ? "" : " ", unit));
-    (isInitial ? initial : properties)[word.key] = {{"description", meaning}};
+    Json& schema = (isInitial ? initial : properties)[word.key] = writtenSchema(written);
+    schema["description"] = meaning;
     if (word.isRequired && !isInitial) required.push_back(word.key);
   }
   if (!initial.empty()) properties["initial"] = closedTable(std::move(initial));

@@ -10,7 +10,9 @@
 namespace gamut {
 namespace {
 
-constexpr const char *text = R"({"type": "string"})", *number = R"({"type": ["number", "string"]})";
+constexpr const char *text = R"({"type": "string"})", *number = R"({"type": ["number", "string"]})",
+                     *aboveZero = R"({"type": ["number", "string"], "exclusiveMinimum": 0})",
+                     *fromZero = R"({"type": ["number", "string"], "minimum": 0})";
 
 void describeStudy(Settings& s, Study&) {
   s.own({"title", "text", "the file's name"}, text);
@@ -19,8 +21,9 @@ void describeStudy(Settings& s, Study&) {
          "at first); or `\"equilibria\"` (where it rests, and how it vibrates there; below)",
          "required"},
         R"({"enum": ["dynamics", "inverse-dynamics", "kinematics", "equilibria"]})");
-  s.own({"horizon", "end of the motion, s", "required where time passes", true}, number);
-  s.own({"output_step", "outputs at 0, step, 2 step, … and at the horizon, s", "this or `output_times`", true}, number);
+  s.own({"horizon", "end of the motion, s", "required where time passes", true}, aboveZero);
+  s.own({"output_step", "outputs at 0, step, 2 step, … and at the horizon, s", "this or `output_times`", true},
+        aboveZero);
   s.own({"output_times", "list of rising times, s; 0 and the horizon are added", "", true},
         R"({"type": "array", "items": {"type": ["number", "string"]}, "minItems": 1})");
   s.own(
@@ -72,10 +75,10 @@ void describeOutput(Settings& s, Study&) {
   s.own({"quantity", "what is wanted: a quantity below, or an expression of them", "required"}, text);
   s.own({"name", "text", "the quantity"}, text);
   s.own({"unit", "in which it is told, everywhere; another one of its kind", "the SI unit"}, text);
-  s.own({"resolution", "that differences up to this count for nothing: `\"0.01 mm\"`", "0"}, number);
+  s.own({"resolution", "that differences up to this count for nothing: `\"0.01 mm\"`", "0"}, fromZero);
   s.own({"tightness", "the overestimation that is aimed at for it in place of `interval.tightness`, above 1",
          "`interval.tightness`", true},
-        number);
+        R"({"type": ["number", "string"], "exclusiveMinimum": 1})");
 }
 
 void describeRequirement(Settings& s, Study&) {
@@ -87,8 +90,8 @@ void describeRequirement(Settings& s, Study&) {
         text);
   s.own({"eventually", "the same, met at one time of the window at least", "this or `always` is required"}, text);
   s.own({"name", "text", "the comparison"}, text);
-  s.own({"from", "begin of the window, s; it becomes an output time", "0 s", true}, number);
-  s.own({"until", "end of the window, likewise", "the horizon", true}, number);
+  s.own({"from", "begin of the window, s; it becomes an output time", "0 s", true}, fromZero);
+  s.own({"until", "end of the window, likewise", "the horizon", true}, fromZero);
 }
 
 void describeInterval(Settings& s, Study& study) {

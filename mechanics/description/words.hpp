@@ -8,9 +8,28 @@
 
 namespace gamut {
 
+/// What is written behind a key of a file.
+struct Written {
+  enum class Kind {
+    name,       ///< a text
+    word,       ///< one of `words`
+    direction,  ///< "x" … "-z", or three numbers
+    rotation,   ///< { axis, angle }, a list of these, { roll, pitch, yaw } or { quaternion }
+    whole,      ///< a whole number from `least` to `most`
+    number,     ///< or a formula
+    numbers,    ///< a list of such, so many
+    points,     ///< a list of lists of three numbers
+    names,      ///< a list of texts
+  };
+  Kind kind = Kind::number;
+  std::vector<std::string> words = {};
+  std::size_t least = 0, most = 0;
+};
+
 struct ElementWords {
   struct Key {
     Word word;
+    Written written;
     bool isInitial = false;    ///< within the table `initial`
     std::string example = {};  ///< a value of such
   };

@@ -355,7 +355,7 @@ class MechanismReader {
     Described element = *std::ranges::find(types_, word, &Described::type);
 
     std::vector<std::string> keys = {"type", "name", "parameters"}, initialKeys, examples;
-    for (const auto& [key, isInitial, example] : wordsOf(element).keys) {
+    for (const auto& [key, written, isInitial, example] : wordsOf(element).keys) {
       (isInitial ? initialKeys : keys).push_back(key.key);
       if (isInitial) examples.push_back(fmt::format("{} = {}", key.key, example));
     }

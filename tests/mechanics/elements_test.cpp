@@ -50,7 +50,7 @@ TEST(ElementTypes, HaveNamesOfTheirOwnAndSayWhatTheyAre) {
     EXPECT_EQ(std::ranges::count(types, type.type()), 0) << type.type();
     types.push_back(type.type());
     EXPECT_FALSE(type.summary().empty()) << type.type();
-    for (const auto& [word, isInitial, example] : wordsOf(type).keys) {
+    for (const auto& [word, written, isInitial, example] : wordsOf(type).keys) {
       if (word.unit == "unit/s") continue;  // of a state: whatever unit it has
       EXPECT_NO_THROW(dimensionOf(word.unit)) << type.type() << "." << word.key;
     }
