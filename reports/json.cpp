@@ -353,6 +353,8 @@ std::string jsonSummary(const Results& results, const Finding& finding, const Re
     Json& of = cost["requirements"];
     of = results.requirements.cpu + (of.is_null() ? 0.0 : of.get<double>());
   }
+  cost["distribution"] = number(results.distribution.cpu);
+  for (const Boxed<FurtherPart>& part : results.further) cost[std::string(part->key())] = number(part->cpu);
   cost["report"] = number(files.reportCpu);
   cost["total"] = number(results.cpu);
   cost["memory"] = number(results.memory);

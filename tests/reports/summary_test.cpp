@@ -75,8 +75,9 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
                                         "reached", "requirements", "samples", "sensitivity", "shortfall", "statistics",
                                         "stopped", "tightness", "verdict", "version", "why", "witness", "workspace"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
-  EXPECT_THAT(keysOf(json["cost"]), ElementsAre("advice", "equations", "fuzzy", "interval", "memory", "report",
-                                                "requirements", "stochastic", "total"));
+  EXPECT_THAT(keysOf(json["cost"]), ElementsAre("advice", "derivatives", "distribution", "equations", "equilibria",
+                                                "fuzzy", "interval", "memory", "postures", "report", "requirements",
+                                                "stochastic", "total", "witness", "workspace"));
   EXPECT_THAT(keysOf(json["limits"]),
               ElementsAre("enclosure_memory", "enclosure_time", "memory", "sample_time", "time"));
   EXPECT_EQ(json["verdict"], wordOf(findVerdict(sampleResults()).word));
@@ -245,6 +246,16 @@ TEST(TextSummary, ListsWhatRequirementsAndAdviceCost) {
   EXPECT_EQ(cost["requirements"], 3.5);
   EXPECT_EQ(cost["advice"], 6.25);
   EXPECT_EQ(cost["equations"], 0);
+}
+
+TEST(JsonSummary, HasTheCostOfEveryPart) {
+  Results results = sampleResults();
+  results.distribution.cpu = 4;
+  for (std::size_t i = 0; i < results.further.size(); ++i) results.further[i]->cpu = 6 + static_cast<double>(i);
+  const Json cost = Json::parse(jsonSummary(results, findVerdict(results), {}))["cost"];
+  EXPECT_EQ(cost["distribution"], 4);
+  for (std::size_t i = 0; i < results.further.size(); ++i)
+    EXPECT_EQ(cost[std::string(results.further[i]->key())], 6 + static_cast<double>(i));
 }
 
 /// In files that were written before the part was kept, and that may have been extended since.
