@@ -54,6 +54,28 @@ std::string loopsOf(const std::vector<std::string>& elements) {
   return (elements.size() == 1 ? "the loop " : "the loops ") + names;
 }
 
+/// Largest last, so that what is no number is the largest.
+double sizeOf(const std::vector<double>& by) {
+  double largest = 0;
+  for (const double each : by) largest = std::abs(each) <= largest ? largest : std::abs(each);
+  return largest;
+}
+
+/// A step by -`by`, of which none turns by more than half a radian; anywhere else from where that has no value, as from
+/// where all start at 0.
+std::vector<double> approached(std::vector<double> at, const std::vector<double>& by, const std::vector<bool>& turns) {
+  constexpr double mostTurn = 0.5;  // rad: linear laws say no more
+  if (!(sizeOf(by) <= std::numeric_limits<double>::max())) {
+    for (std::size_t k = 0; k < at.size(); ++k) at[k] += turns[k] ? 0.2 * static_cast<double>(k + 1) : 0.0;
+    return at;
+  }
+  double share = 1;
+  for (std::size_t i = 0; i < by.size(); ++i)
+    if (turns[i]) share = std::min(share, mostTurn / std::max(std::abs(by[i]), mostTurn));
+  for (std::size_t i = 0; i < by.size(); ++i) at[i] -= share * by[i];
+  return at;
+}
+
 /// `at`: where they close, at a dead point of the coordinates by which they do; `alike`: loops whose rows depend on
 /// each other there, where none would do.
 [[noreturn]] void refuseDeadPoint(const Mechanism& mechanism, const LoopGrip& at,
@@ -229,6 +251,38 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   for (const auto* parts : {&parts_.given_, &parts_.first_, &parts_.parts_})
     for (const auto& part : *parts) chain_ << *part;
 
+  typename System<S>::Speeds speeds = takeStates(mechanism);
+  const auto& gravity = mechanism.gravity();
+  system_ = std::make_unique<System<S>>(std::move(speeds), chain_, *parts_.frames_.at(Mechanism::inertialFrame),
+                                        gravity ? parts_.vector(*gravity) : zeroVector<S>());
+  if (const auto& shaking = mechanism.baseAcceleration())
+    system_->shake([of = std::array{parts_.signal((*shaking)[0]), parts_.signal((*shaking)[1]),
+                                    parts_.signal((*shaking)[2])}] { return Vector3<S>(of[0](), of[1](), of[2]()); });
+  system_->depend(dependents_.size(), areLoopsHeld_);
+  unfoldEnds(mechanism);
+  parts_.solve_ = [this] { solve(); };
+  measureFrames();
+  measureReactions(mechanism);
+  measureWhole();
+  const std::vector<bool> isDifference = mechanism.startsWith(freeParameters);
+  for (const Expression& initial : mechanism.initialState()) {
+    initialState_.push_back(parts_.number(initial));
+    origin_.push_back(isDifference[origin_.size()] ? initialState_.back() : S(0.0));
+  }
+  if (closesLoops) closeLoops(mechanism, freeParameters, values);
+  if constexpr (std::is_same_v<S, double>)
+    if (!closesLoops) {
+      placeAtStart();
+      leaveOutRedundant(mechanism, false);
+    }
+  // What is recorded is the motion from any state; at the initial one it may be singular.
+  if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
+}
+
+/// Where each state lies, and how positions and own states change; the speeds among them, and those of dependent
+/// coordinates.
+template <class S>
+typename System<S>::Speeds Assembly<S>::takeStates(const Mechanism& mechanism) {
   typename System<S>::Speeds speeds;
   const std::vector<std::string> names = mechanism.stateNames();
   const std::size_t positions = mechanism.positions();
@@ -257,31 +311,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
     dependents_.push_back(static_cast<std::size_t>(std::ranges::find(names, name) - names.begin()));
     dependentsTurn_.push_back(mechanism.coordinates().find(name)->kind == Coordinate::angle);
   }
-  const auto& gravity = mechanism.gravity();
-  system_ = std::make_unique<System<S>>(std::move(speeds), chain_, *parts_.frames_.at(Mechanism::inertialFrame),
-                                        gravity ? parts_.vector(*gravity) : zeroVector<S>());
-  if (const auto& shaking = mechanism.baseAcceleration())
-    system_->shake([of = std::array{parts_.signal((*shaking)[0]), parts_.signal((*shaking)[1]),
-                                    parts_.signal((*shaking)[2])}] { return Vector3<S>(of[0](), of[1](), of[2]()); });
-  system_->depend(dependents_.size(), areLoopsHeld_);
-  unfoldEnds(mechanism);
-  parts_.solve_ = [this] { solve(); };
-  measureFrames();
-  measureReactions(mechanism);
-  measureWhole();
-  const std::vector<bool> isDifference = mechanism.startsWith(freeParameters);
-  for (const Expression& initial : mechanism.initialState()) {
-    initialState_.push_back(parts_.number(initial));
-    origin_.push_back(isDifference[origin_.size()] ? initialState_.back() : S(0.0));
-  }
-  if (closesLoops) closeLoops(mechanism, freeParameters, values);
-  if constexpr (std::is_same_v<S, double>)
-    if (!closesLoops) {
-      placeAtStart();
-      leaveOutRedundant(mechanism, false);
-    }
-  // What is recorded is the motion from any state; at the initial one it may be singular.
-  if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
+  return speeds;
 }
 
 /// Moves to the initial positions.
@@ -355,104 +385,101 @@ std::vector<S> Assembly<S>::rowsAtStart(std::span<const S> dependents) {
   return system_->residuals();
 }
 
-/// Newton's steps from the initial positions of dependent coordinates. Of doubles none turns by more than half a
-/// radian, until the loops are closed; of other scalars so many from there as tolerances of practice need, none where
-/// what is recorded has no free number in the rows, and one from where loops are known to close nearly: each lets what
-/// bounds leave open grow by the condition of the rows.
+/// By how much dependent coordinates are off to first order, being there.
+template <class S>
+std::vector<S> Assembly<S>::openingAt(const std::vector<S>& dependents, bool areRowsOpen) {
+  for (std::size_t i = 0; i < dependents_.size(); ++i) initialState_[dependents_[i]] = dependents[i];
+  placeAtStart();
+  if constexpr (std::is_same_v<S, double>)
+    if (areRowsOpen) return leastOpening(*system_);
+  return system_->opening();
+}
+
+/// Newton's steps from the initial positions of dependent coordinates, of doubles: none turns by more than half a
+/// radian, until the loops are closed. `areRowsOpen`: which rows are left out is not found yet.
+template <class S>
+void Assembly<S>::closeNominally(const Mechanism& mechanism, bool areRowsOpen) requires std::same_as<S, double> {
+  std::vector<double> at;
+  for (const std::size_t i : dependents_) at.push_back(initialState_[i]);
+  const std::vector<double> start = at;
+  std::vector<double> by = openingAt(at, areRowsOpen);
+  constexpr int most = 200;
+  constexpr double closed = 1e-9, digits = 1e-12;
+  for (int i = 0; i < most && sizeOf(by) != 0; ++i) {
+    at = approached(std::move(at), by, dependentsTurn_);
+    std::vector<double> rest = openingAt(at, areRowsOpen);
+    if (!(sizeOf(rest) < sizeOf(by)) && sizeOf(by) < digits) break;
+    by = std::move(rest);
+  }
+  const auto nearest = [&] {
+    return nearestClosed(mechanism, *system_, start, [&](const auto& positions) { openingAt(positions, areRowsOpen); });
+  };
+  if (areRowsOpen) {
+    if (!(sizeOf(openingAt(at, true)) < closed)) refuseOpen(mechanism, sizeOf(by) == sizeOf(by), nearest());
+    leaveOutRedundant(mechanism, true);
+    areRowsOpen = false;
+  }
+  if (at.empty()) return;
+  by = openingAt(at);
+  constexpr double dead = 1e-6;
+  const LoopGrip grip = gripOfLoops(mechanism, *system_);
+  const bool isClosed = sizeOf(system_->residuals()) < closed * jacobianOfLoops(*system_).cwiseAbs().maxCoeff();
+  if (sizeOf(by) < closed && grip.share >= dead) return;
+  if (isClosed) refuseDeadPoint(mechanism, grip, loopsAlike(mechanism, *system_));
+  OpenLoops::Nearest found = nearest();
+  if (const LoopGrip there = gripOfLoops(mechanism, *system_); found.isClosed && there.share < dead)
+    refuseDeadPoint(mechanism, there, loopsAlike(mechanism, *system_));
+  refuseOpen(mechanism, sizeOf(by) == sizeOf(by), std::move(found));
+}
+
+/// Newton's steps from where the nominal machine is closed: so many as tolerances of practice need, none where what is
+/// recorded has no free number in the rows, and one from where loops are known to close nearly. Each lets what bounds
+/// leave open grow by the condition of the rows.
+template <class S>
+std::vector<S> Assembly<S>::closedNear(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                                       std::span<const S> values) {
+  const Assembly<double> nominal(mechanism);
+  std::vector<S> at;
+  for (const std::size_t i : dependents_) at.push_back(S(nominal.initialState()[i]));
+  int steps = 4;
+  if constexpr (std::is_same_v<S, Recorded>) {
+    for (std::size_t i = 0; i < loops_.size(); ++i) loops_[i].side = nominal.loops_[i].side;
+    openingAt(at);
+    if (!dependOn(system_->residuals(), [](const Node& node) { return node.op == Op::parameter; })) {
+      steps = 0;
+    } else if (const Program* offsets = mechanism.closesNear(freeParameters)) {
+      const std::vector<Recorded> by = written(*offsets, {}, {values.begin(), values.end()}, Recorded(0.0));
+      for (std::size_t i = 0; i < at.size(); ++i) at[i] = at[i] + by[i];
+      steps = 1;
+    }
+  }
+  for (int step = 0; step < steps; ++step) {
+    const std::vector<S> by = openingAt(at);
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] = at[i] - by[i];
+  }
+  return at;
+}
+
+/// Places dependent coordinates where the loops are closed, and finds the rows that are left out.
 template <class S>
 void Assembly<S>::closeLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                              std::span<const S> values) {
   const std::vector<std::size_t> redundant = redundantRows(mechanism);
   if (dependents_.empty() && redundant.empty()) return;
-  bool areRowsOpen = !redundant.empty();  // which of them are left out is not found yet
+  bool areRowsOpen = !redundant.empty();
   if (areRowsOpen && !(std::is_same_v<S, double> && freeParameters.empty())) {
     leaveOutAs(Assembly<double>(mechanism));
     areRowsOpen = false;
   }
   findTriangles(mechanism);
-  const auto openingAt = [&](const std::vector<S>& positions) {
-    for (std::size_t i = 0; i < dependents_.size(); ++i) initialState_[dependents_[i]] = positions[i];
-    placeAtStart();
-    if constexpr (std::is_same_v<S, double>)
-      if (areRowsOpen) return leastOpening(*system_);
-    return system_->opening();
-  };
-  const auto moved = [](std::vector<S> positions, const std::vector<S>& by, double share) {
-    for (std::size_t i = 0; i < by.size(); ++i) positions[i] = positions[i] - S(share) * by[i];
-    return positions;
-  };
-  std::vector<S> at;
-  for (const std::size_t i : dependents_) at.push_back(initialState_[i]);
-  const std::vector<S> start = at;
   if constexpr (std::is_same_v<S, double>) {
-    // Largest last, so that what is no number is the largest.
-    const auto size = [](const std::vector<double>& by) {
-      double largest = 0;
-      for (const double each : by) largest = std::abs(each) <= largest ? largest : std::abs(each);
-      return largest;
-    };
-    const auto turns = [&](std::size_t i) {
-      return mechanism.coordinates().find(mechanism.dependents()[i])->kind == Coordinate::angle;
-    };
-    constexpr double mostTurn = 0.5;  // rad a step: linear laws say no more
-    const auto shareOf = [&](const std::vector<double>& by) {
-      double share = 1;
-      for (std::size_t i = 0; i < by.size(); ++i)
-        if (turns(i)) share = std::min(share, mostTurn / std::max(std::abs(by[i]), mostTurn));
-      return share;
-    };
-    constexpr int most = 200;
-    constexpr double closed = 1e-9, digits = 1e-12;
-    std::vector<double> by = openingAt(at);
-    for (int i = 0; i < most && size(by) != 0; ++i) {
-      if (!(size(by) <= std::numeric_limits<double>::max()))  // singular there, as where all start at 0
-        for (std::size_t k = 0; k < at.size(); ++k) at[k] += turns(k) ? 0.2 * static_cast<double>(k + 1) : 0.0;
-      else
-        at = moved(at, by, shareOf(by));
-      std::vector<double> rest = openingAt(at);
-      if (!(size(rest) < size(by)) && size(by) < digits) break;
-      by = std::move(rest);
-    }
-    const auto nearest = [&] {
-      return nearestClosed(mechanism, *system_, start, [&](const auto& positions) { openingAt(positions); });
-    };
-    if (areRowsOpen) {
-      if (!(size(openingAt(at)) < closed)) refuseOpen(mechanism, size(by) == size(by), nearest());
-      leaveOutRedundant(mechanism, true);
-      areRowsOpen = false;
-    }
-    if (at.empty()) return;
-    by = openingAt(at);
-    constexpr double dead = 1e-6;
-    const LoopGrip grip = gripOfLoops(mechanism, *system_);
-    const bool isClosed = size(system_->residuals()) < closed * jacobianOfLoops(*system_).cwiseAbs().maxCoeff();
-    if (!(size(by) < closed) || grip.share < dead) {
-      if (isClosed) refuseDeadPoint(mechanism, grip, loopsAlike(mechanism, *system_));
-      OpenLoops::Nearest found = nearest();
-      if (const LoopGrip there = gripOfLoops(mechanism, *system_); found.isClosed && there.share < dead)
-        refuseDeadPoint(mechanism, there, loopsAlike(mechanism, *system_));
-      refuseOpen(mechanism, size(by) == size(by), std::move(found));
-    }
+    closeNominally(mechanism, areRowsOpen);
+    if (dependents_.empty()) return;
     for (Loop& loop : loops_)
       if (loop.triangle && !loop.triangle->given().empty()) loop.side = loop.triangle->side();
   } else {
-    if (at.empty()) return;
-    const Assembly<double> nominal(mechanism);
-    for (std::size_t i = 0; i < at.size(); ++i) at[i] = S(nominal.initialState()[dependents_[i]]);
-    if constexpr (std::is_same_v<S, Recorded>)
-      for (std::size_t i = 0; i < loops_.size(); ++i) loops_[i].side = nominal.loops_[i].side;
-    int steps = 4;
-    if constexpr (std::is_same_v<S, Recorded>) {
-      openingAt(at);
-      if (!dependOn(system_->residuals(), [](const Node& node) { return node.op == Op::parameter; })) {
-        steps = 0;
-      } else if (const Program* offsets = mechanism.closesNear(freeParameters)) {
-        const std::vector<Recorded> by = written(*offsets, {}, {values.begin(), values.end()}, Recorded(0.0));
-        for (std::size_t i = 0; i < at.size(); ++i) at[i] = at[i] + by[i];
-        steps = 1;
-      }
-    }
-    for (int i = 0; i < steps; ++i) at = moved(at, openingAt(at), 1);
+    if (dependents_.empty()) return;
+    const std::vector<S> at = closedNear(mechanism, freeParameters, values);
     for (std::size_t i = 0; i < at.size(); ++i) initialState_[dependents_[i]] = origin_[dependents_[i]] = at[i];
   }
   closeRates();

@@ -115,11 +115,16 @@ class Assembly {
   void takeNumbers(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                    std::span<const S> values);
   void makeStates(const Mechanism& mechanism);
+  typename System<S>::Speeds takeStates(const Mechanism& mechanism);
   std::vector<S> withOrigin(std::span<const S> x) const;
   void setUnfolded(std::vector<S> states, const std::vector<S>& signs, const S& time, bool isSmooth = false);
   void unfoldEnds(const Mechanism& mechanism);
   void closeLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                   std::span<const S> values);
+  void closeNominally(const Mechanism& mechanism, bool areRowsOpen) requires std::same_as<S, double>;
+  std::vector<S> closedNear(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                            std::span<const S> values);
+  std::vector<S> openingAt(const std::vector<S>& dependents, bool areRowsOpen = false);
   void closeRates();
   std::vector<std::size_t> redundantRows(const Mechanism& mechanism) const;
   void leaveOutAs(const Assembly<double>& nominal);

@@ -364,6 +364,29 @@ struct EigenvalueBounds::Piece {
   Beside beside(const Program& near, const Program& shapes, const std::vector<int>& numbers,
                 const std::vector<Interval>& ranges) const;
 
+  struct At;
+
+  /// What is bounded of each mode all over the piece, one number after the other: c; s and g = xᵀ M x; left, (K − c M)
+  /// x, and resisted, M x; K − c M. K and M as the basis sees them.
+  struct Residuals {
+    const Interval* first;
+    int f;
+
+    const Interval& c() const { return first[0]; }
+    const Interval& s() const { return first[1]; }
+    const Interval& g() const { return first[2]; }
+    const Interval& left(int i) const { return first[3 + i]; }
+    const Interval& resisted(int i) const { return first[3 + f + i]; }
+    const Interval* pencil() const { return first + 3 + 2 * f; }
+  };
+  int residualsOfMode() const { return 3 + 2 * f + pencil.triangle; }
+  Program residualsOf(const Program& near, const Program& shapes, std::size_t from, std::size_t to) const;
+  Box allResiduals(const Program& near, const Program& shapes, std::size_t modes) const;
+  struct Spread;
+  Spread spreadAt(double c0, const At& middle) const;
+  std::optional<double> apartBy(int k, const Residuals& own, const Spread& spread, double delta, double off) const;
+  std::optional<double> radiusOf(int k, const Residuals& own, const At& middle) const;
+
   /// By how much a quantity moves K and M, about, of what they are in the middle.
   double movedBy(int i) const {
     const double wide = width(parameters[i]);
@@ -507,6 +530,131 @@ std::vector<Interval> EigenvalueBounds::Piece::ranges(const std::vector<int>& nu
   return ranges;
 }
 
+/// Of modes from `from` on; what stands of each is in Residuals.
+Program EigenvalueBounds::Piece::residualsOf(const Program& near, const Program& shapes, std::size_t from,
+                                             std::size_t to) const {
+  const int triangle = pencil.triangle, perMode = residualsOfMode();
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> basis = pencil.basis;
+  return record(0, pencil.root.parameters(), static_cast<int>(to - from) * perMode,
+                [&](auto, const auto&, const auto& p, auto& y) {
+                  const std::vector<Recorded> own(p.begin(), p.begin() + quantities),
+                      all = evaluate<Recorded>(pencil.pencil, evaluate<Recorded>(pencil.root, {}, {p.begin(), p.end()}),
+                                               own),
+                      c = evaluate<Recorded>(near, {}, own), vectors = evaluate<Recorded>(shapes, {}, own);
+                  const std::span<const Recorded> entries = std::span<const Recorded>(all).subspan(pencil.n);
+                  const std::span<const double> phi(basis.data(), basis.size());
+                  const std::vector<Recorded> modalStiffness = congruent<Recorded>(entries.first(triangle), phi, f, f),
+                                              modalMass = congruent<Recorded>(entries.last(triangle), phi, f, f);
+                  for (std::size_t w = from; w < to; ++w) {
+                    const int first = static_cast<int>(w - from) * perMode;
+                    const std::span<const Recorded> x = std::span<const Recorded>(vectors).subspan(w * f, f);
+                    const std::vector<Recorded> held = times<Recorded>(modalStiffness, x),
+                                                resisted = times<Recorded>(modalMass, x);
+                    Recorded s(0.0), g(0.0);
+                    for (int i = 0; i < f; ++i) {
+                      const Recorded left = held[i] - c[w] * resisted[i];
+                      s = s + x[i] * left;
+                      g = g + x[i] * resisted[i];
+                      y[first + 3 + i] = left;
+                      y[first + 3 + f + i] = resisted[i];
+                    }
+                    for (int i = 0; i < triangle; ++i)
+                      y[first + 3 + 2 * f + i] = modalStiffness[i] - c[w] * modalMass[i];
+                    y[first] = c[w];
+                    y[first + 1] = s;
+                    y[first + 2] = g;
+                  }
+                });
+}
+
+/// Of so many modes, over the piece.
+Box EigenvalueBounds::Piece::allResiduals(const Program& near, const Program& shapes, std::size_t modes) const {
+  const Box box = pencil.withOpen(parameters);
+  constexpr std::size_t together = 16384;  // numbers: all have room, whatever the number of modes
+  const std::size_t atOnce = std::max<std::size_t>(1, together / static_cast<std::size_t>(residualsOfMode()));
+  Box found;
+  for (std::size_t w = 0; w < modes; w += atOnce) {
+    const Program own = residualsOf(near, shapes, w, std::min(w + atOnce, modes));
+    const Box image = encloseImage(own, 0.0, box, {}, degreeFor(parameters), nullptr, pencil.narrow())[0];
+    found.insert(found.end(), image.begin(), image.end());
+  }
+  return found;
+}
+
+/// K − c0 M in the middle, by how much quantities change it at most, and M with its own.
+struct EigenvalueBounds::Piece::Spread {
+  Symmetric middle, pencil, mass;
+};
+
+EigenvalueBounds::Piece::Spread EigenvalueBounds::Piece::spreadAt(double c0, const At& middle) const {
+  Spread spread{middle.stiffness, Symmetric(f), Symmetric(f)};
+  spread.middle.add(Interval(-c0), middle.mass);
+  for (int i = 0; i < quantities; ++i) {
+    if (isThin(parameters[i])) continue;
+    const LoewnerBounds bounds = slopeBounds(i, c0);
+    const Interval radius(magnitude(parameters[i] - Interval(midpoint(parameters[i]))));
+    spread.pencil.add(radius, bounds.below);
+    spread.pencil.add(radius, bounds.above);
+    spread.mass.add(radius, ofMass[i].below);
+    spread.mass.add(radius, ofMass[i].above);
+  }
+  spread.mass.add(Interval(1.0), middle.mass);
+  return spread;
+}
+
+/// bᵀ |B_J⁻¹| b at most, c + δ being off from c0 by `off` at most; nothing where B_J is not proved to have k negative
+/// eigenvalues.
+std::optional<double> EigenvalueBounds::Piece::apartBy(int k, const Residuals& own, const Spread& spread, double delta,
+                                                       double off) const {
+  Symmetric all = spread.pencil;
+  all.add(Interval(off), spread.mass);
+  // Free of units, without row k.
+  Matrix d = Matrix::Zero(f, f - 1);
+  for (int j = 0, column = 0; j < f; ++j) {
+    if (j == k) continue;
+    const double there = midpoint(spread.middle(j, j));
+    if (there == 0 || (there < 0) != (j < k)) return {};
+    d(j, column++) = 1 / std::sqrt(std::abs(there));
+  }
+  Symmetric rest = congruent(d, spread.middle);
+  double q = f > 1 ? largestOf(congruent(d, all)) : 0.0;
+  for (int i = 0; i < f - 1; ++i) rest(i, i) -= Interval(midpoint(rest(i, i)) < 0 ? -1.0 : 1.0);
+  q = (Interval(q) + Interval(normOf(rest))).upper();
+  // Or by what polynomials know of the entries at c, which move with it.
+  if (const Symmetric atC(f, {own.pencil(), own.pencil() + pencil.triangle}); f > 1 && atC.isKnown()) {
+    Symmetric entries = congruent(d, atC);
+    for (int i = 0; i < f - 1; ++i) entries(i, i) -= Interval(i < k ? -1.0 : 1.0);
+    q = std::min(
+        q, (Interval(normOf(entries)) + Interval(delta) * Interval(largestOf(congruent(d, spread.mass)))).upper());
+  }
+  if (!(q < 1)) return {};
+  Interval square(0.0);
+  for (int j = 0, column = 0; j < f; ++j) {
+    if (j == k) continue;
+    square += sqr((Interval(magnitude(own.left(j))) + Interval(delta) * Interval(magnitude(own.resisted(j)))) *
+                  Interval(d(j, column++)));
+  }
+  return (square / (Interval(1.0) - Interval(q))).upper();
+}
+
+/// δ, by which λ_k differs from c at most; nothing where none is proved.
+std::optional<double> EigenvalueBounds::Piece::radiusOf(int k, const Residuals& own, const At& middle) const {
+  if (!isBounded(own.c()) || !isBounded(own.s()) || !(own.g().lower() > 0)) return {};
+  const double c0 = midpoint(own.c());
+  const Spread spread = spreadAt(c0, middle);
+  double delta = magnitude(own.s()) / own.g().lower();
+  constexpr int rounds = 6;
+  for (int round = 0; round < rounds; ++round) {
+    const double off = (Interval(magnitude(own.c() - Interval(c0))) + Interval(delta)).upper();
+    const std::optional<double> apart = apartBy(k, own, spread, delta, off);
+    if (!apart) return {};
+    const double needed = ((Interval(magnitude(own.s())) + Interval(*apart)) / Interval(own.g().lower())).upper();
+    if (needed < delta || (needed == 0 && delta == 0)) return delta;
+    delta = 1.01 * needed + 1e-300;
+  }
+  return {};
+}
+
 /// With S = [x, e_j for all others j], x_k = 1, the pencil at σ = c + δ is s = xᵀBx beside b_j = (Bx)_j and B_J, B
 /// without row and column k. Where B_J is regular and has k negative eigenvalues for all p, λ_k < σ where s − bᵀB_J⁻¹b
 /// < 0, and λ_k > σ where that is above 0 (E. V. Haynsworth). B_J = D^½ (±1 + F) D^½ with ‖F‖ ≤ q < 1 has the signs of
@@ -514,118 +662,17 @@ std::vector<Interval> EigenvalueBounds::Piece::ranges(const std::vector<int>& nu
 EigenvalueBounds::Beside EigenvalueBounds::Piece::beside(const Program& near, const Program& shapes,
                                                          const std::vector<int>& numbers,
                                                          const std::vector<Interval>& ranges) const {
-  const int triangle = pencil.triangle, perMode = 3 + 2 * f + triangle;
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> basis = pencil.basis;
-  const auto residuals = [&](std::size_t from, std::size_t to) {
-    return record(
-        0, pencil.root.parameters(), static_cast<int>(to - from) * perMode,
-        [&](auto, const auto&, const auto& p, auto& y) {
-          const std::vector<Recorded> own(p.begin(), p.begin() + quantities),
-              all = evaluate<Recorded>(pencil.pencil, evaluate<Recorded>(pencil.root, {}, {p.begin(), p.end()}), own),
-              c = evaluate<Recorded>(near, {}, own), vectors = evaluate<Recorded>(shapes, {}, own);
-          const std::span<const Recorded> entries = std::span<const Recorded>(all).subspan(pencil.n);
-          const std::span<const double> phi(basis.data(), basis.size());
-          const std::vector<Recorded> modalStiffness = congruent<Recorded>(entries.first(triangle), phi, f, f),
-                                      modalMass = congruent<Recorded>(entries.last(triangle), phi, f, f);
-          for (std::size_t w = from; w < to; ++w) {
-            const int first = static_cast<int>(w - from) * perMode;
-            const std::span<const Recorded> x = std::span<const Recorded>(vectors).subspan(w * f, f);
-            const std::vector<Recorded> held = times<Recorded>(modalStiffness, x),
-                                        resisted = times<Recorded>(modalMass, x);
-            Recorded s(0.0), g(0.0);
-            for (int i = 0; i < f; ++i) {
-              const Recorded left = held[i] - c[w] * resisted[i];
-              s = s + x[i] * left;
-              g = g + x[i] * resisted[i];
-              y[first + 3 + i] = left;
-              y[first + 3 + f + i] = resisted[i];
-            }
-            for (int i = 0; i < triangle; ++i) y[first + 3 + 2 * f + i] = modalStiffness[i] - c[w] * modalMass[i];
-            y[first] = c[w];
-            y[first + 1] = s;
-            y[first + 2] = g;
-          }
-        });
-  };
-  const Box box = pencil.withOpen(parameters);
-  constexpr std::size_t together = 16384;  // numbers: all have room, whatever the number of modes
-  const std::size_t atOnce = std::max<std::size_t>(1, together / static_cast<std::size_t>(perMode));
-  Box found;
-  for (std::size_t w = 0; w < numbers.size(); w += atOnce) {
-    const Program own = residuals(w, std::min(w + atOnce, numbers.size()));
-    const Box image = encloseImage(own, 0.0, box, {}, degreeFor(parameters), nullptr, pencil.narrow())[0];
-    found.insert(found.end(), image.begin(), image.end());
-  }
-
+  const Box found = allResiduals(near, shapes, numbers.size());
   const At middle = at(middleOf(parameters));
   Beside result{{}, ranges};
   for (std::size_t w = 0; w < numbers.size(); ++w) {
-    const Interval* own = &found[w * perMode];
-    const int k = numbers[w];
-    const Interval loose = ranges[w] - own[0];
-    result.off.push_back(loose);
-    if (!isBounded(own[0]) || !isBounded(own[1]) || !(own[2].lower() > 0)) continue;
-    // What B_J leaves at the middle, and what the quantities add.
-    const double c0 = midpoint(own[0]);
-    Symmetric b0 = middle.stiffness, spread(f), massSpread(f);
-    b0.add(Interval(-c0), middle.mass);
-    for (int i = 0; i < quantities; ++i) {
-      if (isThin(parameters[i])) continue;
-      const LoewnerBounds bounds = slopeBounds(i, c0);
-      const Interval radius(magnitude(parameters[i] - Interval(midpoint(parameters[i]))));
-      spread.add(radius, bounds.below);
-      spread.add(radius, bounds.above);
-      massSpread.add(radius, ofMass[i].below);
-      massSpread.add(radius, ofMass[i].above);
+    const Residuals own{&found[w * residualsOfMode()], f};
+    Interval off = ranges[w] - own.c();
+    if (const std::optional<double> delta = radiusOf(numbers[w], own, middle)) {
+      off = intersection(off, Interval(-*delta, *delta));
+      result.ranges[w] = intersection(ranges[w], own.c() + off);
     }
-    massSpread.add(Interval(1.0), middle.mass);
-    double delta = magnitude(own[1]) / own[2].lower();
-    constexpr int rounds = 6;
-    for (int round = 0; round < rounds; ++round) {
-      const double off = (Interval(magnitude(own[0] - Interval(c0))) + Interval(delta)).upper();
-      Symmetric all = spread;
-      all.add(Interval(off), massSpread);
-      // Free of units, without row k.
-      Matrix d = Matrix::Zero(f, f - 1);
-      int negatives = 0;
-      bool isApart = true;
-      for (int j = 0, column = 0; j < f; ++j) {
-        if (j == k) continue;
-        const double there = midpoint(b0(j, j));
-        isApart = isApart && there != 0;
-        negatives += there < 0 ? 1 : 0;
-        isApart = isApart && (there < 0) == (j < k);
-        d(j, column++) = 1 / std::sqrt(std::abs(there));
-      }
-      if (!isApart || negatives != k) break;
-      Symmetric rest = congruent(d, b0);
-      double q = f > 1 ? largestOf(congruent(d, all)) : 0.0;
-      for (int i = 0; i < f - 1; ++i) rest(i, i) -= Interval(midpoint(rest(i, i)) < 0 ? -1.0 : 1.0);
-      q = (Interval(q) + Interval(normOf(rest))).upper();
-      // Or by what polynomials know of the entries at c, which move with it.
-      const Interval* first = own + 3 + 2 * f;
-      if (const Symmetric atC(f, {first, first + triangle}); f > 1 && atC.isKnown()) {
-        Symmetric entries = congruent(d, atC);
-        for (int i = 0; i < f - 1; ++i) entries(i, i) -= Interval(i < k ? -1.0 : 1.0);
-        q = std::min(
-            q, (Interval(normOf(entries)) + Interval(delta) * Interval(largestOf(congruent(d, massSpread)))).upper());
-      }
-      if (!(q < 1)) break;
-      Interval square(0.0);
-      for (int j = 0, column = 0; j < f; ++j) {
-        if (j == k) continue;
-        square += sqr((Interval(magnitude(own[3 + j])) + Interval(delta) * Interval(magnitude(own[3 + f + j]))) *
-                      Interval(d(j, column++)));
-      }
-      const double needed =
-          ((Interval(magnitude(own[1])) + square / (Interval(1.0) - Interval(q))) / Interval(own[2].lower())).upper();
-      if (needed < delta || (needed == 0 && delta == 0)) {
-        result.off.back() = intersection(loose, Interval(-delta, delta));
-        result.ranges[w] = intersection(ranges[w], own[0] + result.off.back());
-        break;
-      }
-      delta = 1.01 * needed + 1e-300;
-    }
+    result.off.push_back(off);
   }
   return result;
 }

@@ -655,8 +655,7 @@ std::optional<FlowStepper::Arrival> FlowStepper::arrivalOf(const FlowSet& set, c
     return magnitude(bound.whileArriving(seconds) - inflated(middle, varies));
   };
   const Arrival result{&form, off(0.0), off(h_)};
-  if (!std::isfinite(result.begin) || !std::isfinite(result.end)) return std::nullopt;
-  return result;
+  return std::isfinite(result.begin) && std::isfinite(result.end) ? std::optional(result) : std::nullopt;
 }
 
 /// While solutions come to be held, y = x - x̃ - Ψ̃(r + Γs) is known of the states that arguments u decide: |c·y| ≤ g(t),
