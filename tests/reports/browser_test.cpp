@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -27,8 +28,14 @@ using ::testing::Not;
 
 class Browser : public ::testing::Test {
  protected:
+  /// One for all tests: to start it takes longer than what is asked of it.
+  static void SetUpTestSuite() {
+    if (Chromium::isInstalled()) chromium = std::make_unique<Chromium>();
+  }
+  static void TearDownTestSuite() { chromium.reset(); }
+
   void SetUp() override {
-    if (Chromium::isInstalled()) return;
+    if (chromium) return;
     const char* ci = std::getenv("CI");
     ASSERT_FALSE(ci != nullptr && std::string(ci) == "true") << "chromium is not installed";
     GTEST_SKIP() << "chromium is not installed";
@@ -41,7 +48,7 @@ class Browser : public ::testing::Test {
     const std::string page = folder_.path("report.html");
     writeReport(results, page);
     // Frames are drawn after callbacks, and observers of sizes are told before the next one begins.
-    return Chromium(size).found(
+    return chromium->found(
         page,
         "const root = document.documentElement, frame = () => new Promise(then => requestAnimationFrame(then));"
         "const laidOut = async () => { await frame(); await frame(); };"
@@ -53,10 +60,13 @@ class Browser : public ::testing::Test {
             (doing.find("note") == std::string::npos
                  ? ""
                  : "while (!isNoted && root.dataset.error == null) await frame();") +
-            "return root.outerHTML;");
+            "return root.outerHTML;",
+        size);
   }
 
  private:
+  static inline std::unique_ptr<Chromium> chromium;
+
   TemporaryFolder folder_;
 };
 

@@ -26,7 +26,7 @@ std::array<int, 2> pipeEnds() {
 
 bool Chromium::isInstalled() { return std::system("command -v chromium > /dev/null") == 0; }
 
-Chromium::Chromium(const Size& size) : size_(size) {
+Chromium::Chromium() {
   const std::array<int, 2> commands = pipeEnds(), answers = pipeEnds();
   const std::string profile = "--user-data-dir=" + folder_.path("profile"), log = folder_.path("log");
   process_ = ::fork();
@@ -61,13 +61,13 @@ Chromium::~Chromium() {
   ::waitpid(process_, nullptr, 0);
 }
 
-std::string Chromium::found(const std::string& page, const std::string& script) {
+std::string Chromium::found(const std::string& page, const std::string& script, const Size& size) {
   const json target = json::parse(asked("Target.createTarget", json{{"url", "file://" + page}}.dump()));
   const std::string id = target["result"]["targetId"];
   const json attached = json::parse(asked("Target.attachToTarget", json{{"targetId", id}, {"flatten", true}}.dump()));
   const std::string session = attached["result"]["sessionId"];
   asked("Emulation.setDeviceMetricsOverride",
-        json{{"width", size_.width}, {"height", size_.height}, {"deviceScaleFactor", 1}, {"mobile", false}}.dump(),
+        json{{"width", size.width}, {"height", size.height}, {"deviceScaleFactor", 1}, {"mobile", false}}.dump(),
         session);
   // The target is empty until the page is there; what runs in it until then is lost with it.
   const std::string whole =

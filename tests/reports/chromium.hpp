@@ -19,14 +19,14 @@ class Chromium {
   struct Size {
     int width = 800, height = 600;
   };
-  explicit Chromium(const Size& size);
+  Chromium();
   ~Chromium();
   Chromium(const Chromium&) = delete;
   Chromium& operator=(const Chromium&) = delete;
 
   /// The text that an asynchronous function finds in this page; its body is `script`, which may wait. The page is
-  /// opened when it begins; whether its own scripts are done is for it to await.
-  std::string found(const std::string& page, const std::string& script);
+  /// opened when it begins, and closed when it ends; whether its own scripts are done is for it to await.
+  std::string found(const std::string& page, const std::string& script, const Size& size);
 
  private:
   /// The answer to a command; all as JSON.
@@ -35,7 +35,6 @@ class Chromium {
   std::string received();
 
   TemporaryFolder folder_;
-  Size size_;
   pid_t process_ = 0;
   int to_ = -1, from_ = -1;
   int asked_ = 0;

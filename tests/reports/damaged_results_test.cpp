@@ -21,7 +21,7 @@ class DamagedResults : public ::testing::Test {
  protected:
   /// The results of a run: small data in headers, larger ones in chunks.
   DamagedResults() {
-    const std::string study = sampleStudyWith("output_step = 0.1", "output_step = 0.0005");
+    const std::string study = sampleStudyWith("output_step = 0.1", "output_step = 0.00125");
     RunOptions options;
     options.jobs = 1;
     Results results = run(readStudyText(study, "s.toml"), options);

@@ -62,8 +62,7 @@ TEST(Description, NamesEveryFieldOnce) {
     }
 }
 
-TEST(Description, TellsAChangeOfEachFieldAndTheFileGivesItBack) {
-  const TemporaryFolder folder;
+TEST(Description, TellsAChangeOfEachField) {
   const Results before = fullResults();
   for (std::size_t g = 0; g < describe(before).size(); ++g)
     for (std::size_t f = 0; f < describe(before)[g].fields(0).size(); ++f) {
@@ -72,9 +71,19 @@ TEST(Description, TellsAChangeOfEachFieldAndTheFileGivesItBack) {
       const Field field = group.fields(group.size - 1)[f];
       change(field.value, after);
       EXPECT_THAT(differences(before, after), ElementsAre(pathOf(group, field)));
-      writeResults(after, folder.path("r.h5"));
-      EXPECT_THAT(differences(readResults(folder.path("r.h5")), after), IsEmpty()) << pathOf(group, field);
     }
+}
+
+TEST(Description, IsWhatTheFileGivesBack) {
+  const TemporaryFolder folder;
+  const Results before = fullResults();
+  Results after = before;
+  std::size_t changed = 0;
+  for (const Group& group : describe(after))
+    for (const Field& field : group.fields(group.size - 1)) change(field.value, after), ++changed;
+  EXPECT_EQ(differences(before, after).size(), changed);
+  writeResults(after, folder.path("r.h5"));
+  EXPECT_THAT(differences(readResults(folder.path("r.h5")), after), IsEmpty());
 }
 
 TEST(Description, GivesBackTheExtentsOfGridsWithoutNumbers) {
