@@ -158,7 +158,9 @@ void checkMotions(const Machine& machine, const std::vector<double>& scales) {
       if (const auto apart = firstApart(at, most))
         refuseRow(study, rows[*apart], at[*apart],
                   study.moves() ? fmt::format(" at {:.3g} s", motion.times[i]) : std::string(),
-                  "numbers for which they do, by formulas, or a smaller `redundant`");
+                  i == 0 ? "numbers for which they do, by formulas, or a smaller `redundant`"
+                         : "a horizon before, if the rows that are kept come to a singular point there; else numbers "
+                           "for which all hold, by formulas, or a smaller `redundant`");
     }
   }
 }
