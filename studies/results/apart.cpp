@@ -1,146 +1,22 @@
-// fork(): the child has all that the parent has, and what it does to itself stays with it. The result comes through a
-// pipe; that it is whole is said by a last byte, which also tells where exit statuses are ignored. Of what the parent
-// has open the child keeps the pipe's writing end alone: whoever waits for the parent's output, or for its locks, does
-// not wait for the child, which ends when nobody reads any more.
 #include "studies/results/detail/apart.hpp"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <stdexcept>
 
-#include <cerrno>
-#include <fstream>
-#include <string_view>
-#include <system_error>
-#include <vector>
-
-#include "studies/held_interrupts.hpp"
+#include "studies/child_process.hpp"
 
 namespace gamut {
-namespace {
-
-// A sanitizer's own memory is terabytes of addresses.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool isSanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr bool isSanitized = true;
-#else
-constexpr bool isSanitized = false;
-#endif
-#else
-constexpr bool isSanitized = false;
-#endif
-
-void limit(__rlimit_resource resource, rlim_t value) {
-  struct rlimit present {};
-  ::getrlimit(resource, &present);
-  if (present.rlim_max != RLIM_INFINITY && value > present.rlim_max) value = present.rlim_max;
-  const struct rlimit wanted { value, present.rlim_max };
-  ::setrlimit(resource, &wanted);
-}
-
-void setLimits(std::size_t memory, unsigned seconds) {
-  std::size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  if (!isSanitized && pages > 0) limit(RLIMIT_AS, pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + memory);
-  limit(RLIMIT_CPU, seconds);
-  limit(RLIMIT_CORE, 0);
-}
-
-/// The child goes with its parent, however that ends: also one that ended before the child asked for it.
-void endWithParent(pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);
-}
-
-/// The parent's handlers are not the child's: faults end it at once. Interrupts are left to the parent, which knows
-/// what they mean: half a transcript would look like a damaged file.
-void forgetHandlers() {
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGPIPE}) ::signal(number, SIG_DFL);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_IGN);
-}
-
-/// All but the standard streams, which lead nowhere, and the pipe, whose number is told.
-int keepOnly(int pipe) {
-  constexpr int kept = STDERR_FILENO + 1;
-  if (pipe != kept) ::dup2(pipe, kept);
-  const int nowhere = ::open("/dev/null", O_RDWR);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (nowhere < 0 || ::dup2(nowhere, stream) < 0) ::close(stream);
-  if (::syscall(SYS_close_range, kept + 1, ~0U, 0) != 0)  // kernels before 5.9 cannot
-    for (int file = kept + 1, end = static_cast<int>(::sysconf(_SC_OPEN_MAX)); file < end; ++file) ::close(file);
-  return kept;
-}
-
-bool writeAll(int pipe, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(pipe, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) return false;
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
-[[noreturn]] void computeInChild(const std::function<std::string()>& compute, std::size_t memory, unsigned seconds,
-                                 int pipe) {
-  bool isDone = false;
-  try {
-    pipe = keepOnly(pipe);
-    setLimits(memory, seconds);
-    isDone = writeAll(pipe, compute()) && writeAll(pipe, "!");
-  } catch (...) {  // then it is not done
-  }
-  ::_exit(isDone ? 0 : 1);
-}
-
-/// All that comes through a pipe, up to `limit` bytes.
-std::string readAll(int pipe, std::size_t limit) {
-  std::string bytes;
-  std::vector<char> block(1 << 16);
-  for (;;) {
-    const ssize_t count = ::read(pipe, block.data(), block.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0 || bytes.size() > limit) return bytes;
-    bytes.append(block.data(), static_cast<std::size_t>(count));
-  }
-}
-
-}  // namespace
 
 std::optional<std::string> resultApart(const std::function<std::string()>& compute, std::size_t memory,
                                        unsigned seconds) {
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe to a child");
-  const pid_t parent = ::getpid();
-  const pid_t child = [&] {
-    const HeldInterrupts held;  // the child must not act as its parent on one
-    const pid_t forked = ::fork();
-    if (forked == 0) {
-      forgetHandlers();
-      endWithParent(parent);
+  ChildProcess child(compute, {memory, seconds});
+  try {
+    while (child.read(memory)) {
     }
-    return forked;
-  }();
-  if (child < 0) {
-    const int error = errno;
-    ::close(ends[0]);
-    ::close(ends[1]);
-    throw std::system_error(error, std::generic_category(), "no child process");
+  } catch (const std::length_error&) {
+    return std::nullopt;
   }
-  if (child == 0) computeInChild(compute, memory, seconds, ends[1]);
-  ::close(ends[1]);
-  std::string result = readAll(ends[0], memory);
-  ::close(ends[0]);
-  while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
-  }
-  if (!result.ends_with('!')) return std::nullopt;
-  result.pop_back();
-  return result;
+  if (!child.isWhole()) return std::nullopt;
+  return child.text();
 }
 
 }  // namespace gamut

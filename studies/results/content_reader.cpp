@@ -10,12 +10,10 @@ namespace {
 
 class ContentReader {
  public:
-  ContentReader(const Hdf5Reader& root, const std::vector<Boxed<FurtherPart>>& further) : root_(root) {
-    results_.further = further;
-  }
+  explicit ContentReader(const Hdf5Reader& root) : root_(root) {}
 
-  Results read() {
-    for (const Group& group : describe(results_)) {
+  void read(const std::vector<Group>& groups) {
+    for (const Group& group : groups) {
       const std::string path(group.path);
       if (path == "/") {
         readRecord(group, root_);
@@ -28,12 +26,6 @@ class ContentReader {
         readRecord(group, Hdf5Reader(root_, path));
       }
     }
-    if (results_.time.empty()) throw Hdf5Error("/time");
-    if (results_.outputs.empty()) throw Hdf5Error("/output");
-    const std::vector<Group> groups = describe(results_);
-    for (const std::string& path : {misshapen(groups), senseless(groups)})
-      if (!path.empty()) throw Hdf5Error(path);
-    return std::move(results_);
   }
 
  private:
@@ -161,14 +153,23 @@ class ContentReader {
   }
 
   const Hdf5Reader& root_;
-  Results results_;
   Extents extents_;
 };
 
 }  // namespace
 
+void readGroups(const Hdf5Reader& root, const std::vector<Group>& groups) { ContentReader(root).read(groups); }
+
 Results readContent(const Hdf5Reader& root, const std::vector<Boxed<FurtherPart>>& further) {
-  return ContentReader(root, further).read();
+  Results results;
+  results.further = further;
+  readGroups(root, describe(results));
+  if (results.time.empty()) throw Hdf5Error("/time");
+  if (results.outputs.empty()) throw Hdf5Error("/output");
+  const std::vector<Group> groups = describe(results);
+  for (const std::string& path : {misshapen(groups), senseless(groups)})
+    if (!path.empty()) throw Hdf5Error(path);
+  return results;
 }
 
 }  // namespace gamut

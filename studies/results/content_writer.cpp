@@ -3,28 +3,17 @@
 #include <algorithm>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "studies/results/detail/content.hpp"
 
 namespace gamut {
 namespace {
 
-template <class Record>
-std::string jointUnit(const std::vector<Record>& records) {
-  const bool isOne = std::ranges::all_of(records, [&](const Record& r) { return r.unit == records.front().unit; });
-  std::string joint;
-  for (std::size_t i = 0; i < (isOne ? std::min<std::size_t>(records.size(), 1) : records.size()); ++i)
-    joint += (i == 0 ? "" : ", ") + records[i].unit;
-  return joint;
-}
-
 class ContentWriter {
  public:
-  ContentWriter(hid_t file, const Results& results)
-      : file_(file),
-        groups_(describe(results)),
-        extents_(extentsOf(groups_)),
-        units_{{unit::ofOutput, jointUnit(results.outputs)}, {unit::ofQuantity, jointUnit(results.uncertain)}} {
+  ContentWriter(hid_t file, std::vector<Group> groups, JointUnits units)
+      : file_(file), groups_(std::move(groups)), extents_(extentsOf(groups_)), units_(std::move(units)) {
     if (const std::string path = misshapen(groups_); !path.empty())
       throw std::logic_error(path + ": its shape is not that of its dimensions");
   }
@@ -154,11 +143,18 @@ class ContentWriter {
   hid_t file_;
   const std::vector<Group> groups_;
   const Extents extents_;
-  const std::map<std::string_view, std::string> units_;
+  const JointUnits units_;
 };
 
 }  // namespace
 
-void writeContent(hid_t file, const Results& results) { ContentWriter(file, results).write(); }
+void writeGroups(hid_t file, std::vector<Group> groups, JointUnits units) {
+  ContentWriter(file, std::move(groups), std::move(units)).write();
+}
+
+void writeContent(hid_t file, const Results& results) {
+  writeGroups(file, describe(results),
+              {{unit::ofOutput, jointUnit(results.outputs)}, {unit::ofQuantity, jointUnit(results.uncertain)}});
+}
 
 }  // namespace gamut
