@@ -25,6 +25,14 @@ StudyText readStudyFile(const std::string& path) {
   }
 }
 
+std::string nameOfStudy(const std::string& path) {
+  if (path == "-") return "study";
+  const std::filesystem::path file = std::filesystem::absolute(path);
+  return file.stem() == "study" && file.has_parent_path() && file.parent_path().has_filename()
+             ? file.parent_path().filename().string()
+             : file.stem().string();
+}
+
 Machine readMachine(const std::string& path, bool isQuiet, std::optional<double> timeLimit) {
   const auto [text, name] = readStudyFile(path);
   Machine machine = prepared(readStudyText(text, name), isQuiet, timeLimit);

@@ -18,6 +18,9 @@ struct StudyText {
 /// Of a file, or of standard input if the path is "-". Throws StudyError.
 StudyText readStudyFile(const std::string& path);
 
+/// "double_pendulum" for double_pendulum/study.toml, "arm" for arm.toml, "study" for standard input.
+std::string nameOfStudy(const std::string& path);
+
 /// The machine of a study, likewise; says on standard error, unless `isQuiet`, what may be a mistake in the study,
 /// and of a dead point of its loops that is ahead. `timeLimit`: as of prepared().
 /// Throws StudyError.

@@ -1,4 +1,4 @@
-// gamut report: the page of a results file is written again.
+// gamut report: the page of a results file, or of a sweep, is written again.
 #include "reports/report.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +10,9 @@
 #include "commands/files.hpp"
 #include "commands/options.hpp"
 #include "commands/table.hpp"
+#include "reports/sweep_page.hpp"
 #include "studies/results/results_file.hpp"
+#include "studies/sweeps/sweep_file.hpp"
 
 namespace gamut::commands {
 namespace {
@@ -24,8 +26,9 @@ ExitCode report(const ReportArguments& arguments) {
   const std::string path = arguments.page.empty()
                                ? std::filesystem::path(arguments.results).filename().replace_extension(".html").string()
                                : arguments.page;
-  const Results results = readResults(arguments.results);
-  reserve(path, arguments.results, arguments.force).write(renderReport(results));
+  const std::string page = isSweepFile(arguments.results) ? renderSweep(readSweep(arguments.results))
+                                                          : renderReport(readResults(arguments.results));
+  reserve(path, arguments.results, arguments.force).write(page);
   fmt::print("{}\n", path);
   return done;
 }

@@ -26,15 +26,6 @@ struct RunCommandArguments : RunArguments {
   std::optional<std::size_t> samples;
 };
 
-/// "double_pendulum" for double_pendulum/study.toml, "arm" for arm.toml, "study" for standard input.
-std::string nameOfStudy(const std::string& path) {
-  if (path == "-") return "study";
-  const fs::path file = fs::absolute(path);
-  return file.stem() == "study" && file.has_parent_path() && file.parent_path().has_filename()
-             ? file.parent_path().filename().string()
-             : file.stem().string();
-}
-
 void nameOutputs(RunCommandArguments& arguments) {
   if (arguments.results.empty()) arguments.results = nameOfStudy(arguments.study) + ".h5";
   if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();

@@ -33,6 +33,7 @@ Action info(CLI::App& command);
 Action replay(CLI::App& command);
 Action sample(CLI::App& command);
 Action tolerance(CLI::App& command);
+Action sweep(CLI::App& command);
 Action newStudy(CLI::App& command);
 Action quantities(CLI::App& command);
 Action schema(CLI::App& command);
@@ -47,6 +48,7 @@ inline constexpr Command table[] = {
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},
     {"compare", "Two results: do they contradict each other, and what became wider or narrower?", compare},
     {"tolerance", "How far the uncertain quantities may deviate so that all requirements are met", tolerance},
+    {"sweep", "A study over a grid or a list of nominal values: its requirements' answers at each", sweep},
     {"report", "Write the report page of a results file", report},
     {"info", "What a results file holds and where it comes from; or the tree of a robot (URDF)", info},
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},

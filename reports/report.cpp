@@ -1,37 +1,18 @@
-// The page is a skeleton with named places ({{title}}, ...); each is filled once, so text from a study is never
-// searched.
+// Sections, and what of scripts and styles they need.
 #include "reports/report.hpp"
 
 #include <fmt/format.h>
 
-#include <map>
-#include <stdexcept>
 #include <string_view>
 
 #include "reports/page/page.hpp"
 #include "reports/page/parts.hpp"
+#include "reports/page/skeleton.hpp"
 #include "reports/words.hpp"
 #include "studies/atomic_file.hpp"
 
 namespace gamut {
 namespace {
-
-using Places = std::map<std::string, std::string, std::less<>>;
-
-std::string filled(std::string_view skeleton, const Places& places) {
-  std::string text;
-  for (;;) {
-    const auto open = skeleton.find("{{");
-    if (open == std::string_view::npos) return text += skeleton;
-    const auto close = skeleton.find("}}", open);
-    if (close == std::string_view::npos) throw std::logic_error("the page's skeleton has an unclosed place");
-    const auto place = places.find(skeleton.substr(open + 2, close - open - 2));
-    if (place == places.end()) throw std::logic_error("the page's skeleton names an unknown place");
-    text += skeleton.substr(0, open);
-    text += place->second;
-    skeleton.remove_prefix(close + 2);
-  }
-}
 
 /// What has a section of its own has its row here; one without content is left out.
 struct Section {
@@ -62,14 +43,15 @@ std::string sectionsOf(const Report& report) {
 /// What chooses times and copies figures; on pages with plots over time the numbers and what draws them; what moves the
 /// picture of the machine.
 std::string scriptsOf(const Report& report) {
-  const auto script = [](std::string_view text) { return fmt::format("<script>{}</script>\n", text); };
-  std::string scripts =
-      script(page::domScript) + script(page::outputsScript) + script(page::keepScript) + script(page::momentsScript);
+  std::string scripts = scriptElement(page::domScript) + scriptElement(page::outputsScript) +
+                        scriptElement(page::keepScript) + scriptElement(page::momentsScript);
   if (const std::string& data = report.outputs.data; !data.empty())
     scripts += fmt::format("<script type=\"application/json\" id=\"times\">{}</script>\n<!--\n{}\n-->\n", data,
                            page::plottingLicence) +
-               script(page::plottingScript) + script(page::axesScript) + script(page::pageScript);
-  return report.results.picture.present ? scripts + script(page::sceneScript) + script(page::machineScript) : scripts;
+               scriptElement(page::plottingScript) + scriptElement(page::axesScript) + scriptElement(page::pageScript);
+  return report.results.picture.present
+             ? scripts + scriptElement(page::sceneScript) + scriptElement(page::machineScript)
+             : scripts;
 }
 
 /// With so much detail.
@@ -81,16 +63,15 @@ std::string rendered(const Results& results, const Verdict& verdict, const Detai
                       membershipFigures(results, detail),
                       probabilityPlots(results, detail),
                       sensitivityPlots(results, detail)};
-  return filled(page::skeleton,
-                {{"run", results.stopped.empty() ? "whole" : "partial"},
-                 {"title", escapeHtml(titleOf(results))},
-                 {"summary", escapeHtml(summaryLine(results))},
-                 {"style", std::string(page::style)},
-                 {"layers", report.outputs.style + report.probabilities.style + report.sensitivities.style},
-                 {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
-                 {"first", firstSection(report)},
-                 {"sections", sectionsOf(report)},
-                 {"scripts", scriptsOf(report)}});
+  return filledPage({{"run", results.stopped.empty() ? "whole" : "partial"},
+                     {"title", escapeHtml(titleOf(results))},
+                     {"summary", escapeHtml(summaryLine(results))},
+                     {"style", std::string(page::style)},
+                     {"layers", report.outputs.style + report.probabilities.style + report.sensitivities.style},
+                     {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
+                     {"first", firstSection(report)},
+                     {"sections", sectionsOf(report)},
+                     {"scripts", scriptsOf(report)}});
 }
 
 }  // namespace

@@ -94,6 +94,20 @@ void describeRequirement(Settings& s, Study&) {
   s.own({"until", "end of the window, likewise", "the horizon", true}, fromZero);
 }
 
+void describeSweep(Settings& s, Study&) {
+  s.own(
+      {"quantity",
+       "what is varied: a number that the study states, of the mechanism or `SECTION.KEY`; its uncertainty goes along "
+       "as it is stated",
+       "required"},
+      text);
+  s.own({"values", "list of its values", "this, or the next three"},
+        R"({"type": "array", "items": {"type": ["number", "string"]}, "minItems": 1})");
+  s.own({"from", "the first of values that are spread evenly"}, number);
+  s.own({"to", "the last of them"}, number);
+  s.own({"count", "how many there are"}, R"({"type": "integer", "minimum": 1})");
+}
+
 void describeInterval(Settings& s, Study& study) {
   FlowOptions& flow = study.flow;
   s.number(
@@ -285,6 +299,7 @@ std::vector<StudySection> studySections(const Study& study) {
       {"dependence", true, false, "how some of the uncertain quantities depend on each other", describeDependence},
       {"output", true, true, "what is wanted of the motion", describeOutput},
       {"requirement", true, false, "what the motion is to keep", describeRequirement},
+      {"sweep", true, false, "a number that `gamut sweep` varies; of several all combinations", describeSweep},
       {"interval", false, false, "what is guaranteed: how tight, and by what means", describeInterval},
       {"stochastic", false, false, "what is probable: the samples", describeStochastic},
       {"distribution", false, false, "bounds of the outputs' distribution functions", describeDistribution}};

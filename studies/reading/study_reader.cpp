@@ -24,6 +24,7 @@
 #include "studies/reading/mechanism_reader.hpp"
 #include "studies/reading/requirement_reader.hpp"
 #include "studies/reading/settings_reader.hpp"
+#include "studies/reading/sweep_reader.hpp"
 #include "studies/reading/toml_source.hpp"
 #include "studies/reading/uncertain_reader.hpp"
 #include "studies/results/results.hpp"
@@ -64,16 +65,16 @@ class StudyReader {
     checkMotion(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::equilibria) study_.mechanism.measureModes();
-    readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), places_, shapes,
-                  study_);
-    readDependence(source_, tables(file, "dependence"), study_);
+    readUncertain(source_, tables("uncertain"), TableFiles(source_, study_.tables, files), places_, shapes, study_);
+    readDependence(source_, tables("dependence"), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
-    for (const toml::table* table : tables(file, "output")) readOutput(*table);
-    readRequirements(source_, tables(file, "requirement"), study_, outputNodes_);
+    for (const toml::table* table : tables("output")) readOutput(*table);
+    readRequirements(source_, tables("requirement"), study_, outputNodes_);
     if (const toml::node* node = file.find("distribution")) readDistribution(source_.asTable(*node, "distribution"));
     checkInitialValues();
     checkEnds();
     checkSomethingMoves(*file.find("mechanism"));
+    readSweep({source_, study_.mechanism, places_}, tables("sweep"));  // checked here, used by `gamut sweep`
     notePlaces(*file.find("mechanism"));
     study_.ensemble.transformation = Transformation::extended;
     for (const StudySection& each : sections)  // those that were read before say the same again
@@ -87,17 +88,7 @@ class StudyReader {
   }
 
  private:
-  std::vector<const toml::table*> tables(const TomlSection& file, std::string_view key) const {
-    std::vector<const toml::table*> result;
-    const toml::node* node = file.find(key);
-    if (node == nullptr) return result;
-    const std::string name(key);
-    if (!node->is_array())
-      source_.fail(*node, fmt::format("{} is no list of tables", name), fmt::format("[[{}]]", name));
-    for (const toml::node& entry : *node->as_array()) result.push_back(&source_.asTable(entry, name));
-    if (result.empty()) source_.fail(*node, name + " is empty", fmt::format("a table [[{}]]", name));
-    return result;
-  }
+  std::vector<const toml::table*> tables(std::string_view key) const { return tablesIn(source_, key); }
 
   // ---- [study] ------------------------------------------------------------------------------------------------------
 

@@ -44,16 +44,6 @@ std::vector<Cell> cellsOf(const std::string& line) {
   throw std::invalid_argument(fmt::format("the table '{}' cannot be read: {}", printable(path), why));
 }
 
-std::string textOfTable(const std::string& path) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) refuse(path, error.message());
-  if (size > maxTableBytes) refuse(path, fmt::format("it has {} bytes; the most are {}", size, maxTableBytes));
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(path, "it cannot be opened");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 class TableReader {
  public:
   TableReader(const std::string& text, const std::string& path) : path_(path), text_(text) {}
@@ -83,6 +73,19 @@ class TableReader {
     }
     if (found[0].empty()) refuse("it has no row of numbers");
     return table;
+  }
+
+  std::vector<WantedColumn> named() {
+    if (!next()) refuse("it is empty");
+    checkSeparators();
+    std::vector<WantedColumn> columns;
+    for (const Cell& cell : cells_) {
+      const std::size_t open = placeOfUnit(cell.text);
+      const bool hasUnit = open != std::string::npos;
+      columns.push_back({nameIn(cell.text), hasUnit ? cell.text.substr(open + 1, cell.text.size() - open - 2) : ""});
+      scaleOf(cell, columns.back().unit.empty() ? "1" : columns.back().unit);
+    }
+    return columns;
   }
 
   TimeTable read(const std::string& column, const std::string& unit) {
@@ -217,6 +220,25 @@ class TableReader {
 };
 
 }  // namespace
+
+std::string textOfTable(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) refuse(path, error.message());
+  if (size > maxTableBytes) refuse(path, fmt::format("it has {} bytes; the most are {}", size, maxTableBytes));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(path, "it cannot be opened");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::vector<WantedColumn> columnsOf(const std::string& text, const std::string& path) {
+  return TableReader(text, path).named();
+}
+
+TableFiles::Columns readColumns(const std::string& text, const std::string& path,
+                                const std::vector<WantedColumn>& wanted) {
+  return TableReader(text, path).columns(wanted);
+}
 
 TimeTable readTable(const std::string& text, const std::string& path, const std::string& column,
                     const std::string& unit) {

@@ -51,4 +51,15 @@ class TableFiles {
   const std::optional<FilesAtHand>& atHand_;
 };
 
+/// All columns that the first row names, with the unit that stands behind each; empty without one. `path`: what
+/// messages call the file. Throws as readTable does.
+std::vector<WantedColumn> columnsOf(const std::string& text, const std::string& path);
+
+/// These columns, row by row. Throws as readTable does.
+TableFiles::Columns readColumns(const std::string& text, const std::string& path,
+                                const std::vector<WantedColumn>& wanted);
+
+/// The text of a file that holds a table. Throws std::invalid_argument, with a sentence.
+std::string textOfTable(const std::string& path);
+
 }  // namespace gamut

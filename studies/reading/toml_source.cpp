@@ -285,6 +285,17 @@ std::size_t TomlSource::placeAt(const toml::source_position& at) const {
   return i;
 }
 
+std::string TomlSource::with(std::vector<std::pair<const toml::node*, std::string>> values) const {
+  std::ranges::sort(values,
+                    [](const auto& a, const auto& b) { return b.first->source().begin < a.first->source().begin; });
+  std::string text = text_;
+  for (const auto& [node, value] : values) {
+    const std::size_t begin = placeAt(node->source().begin);
+    text.replace(begin, placeAt(node->source().end) - begin, value);
+  }
+  return text;
+}
+
 /// The number's characters.
 std::string TomlSource::tokenAt(const toml::source_position& at) const {
   const std::size_t i = placeAt(at);

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mechanics/description/expression.hpp"
@@ -45,6 +46,9 @@ class TomlSource {
   [[noreturn]] void fail(const toml::node& at, const std::string& what, const std::string& expected) const {
     fail(at.source().begin, what, expected);
   }
+
+  /// The text with other values, as TOML has them, in the places of some.
+  std::string with(std::vector<std::pair<const toml::node*, std::string>> values) const;
 
   /// "file:line:column"
   std::string placeOf(const toml::node& at) const { return placeOf(at.source().begin); }
