@@ -7,6 +7,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "studies/results/fields.hpp"
 
 namespace gamut::python {
 
@@ -14,8 +17,12 @@ namespace gamut::python {
 void bindErrors();
 void bindStudies(pybind11::module_& module);
 void bindResults(pybind11::module_& module);
+void bindSweeps(pybind11::module_& module);
 void bindNumbers(pybind11::module_& module);
 void bindFlow(pybind11::module_& module);
+
+/// (path, unit, meaning, dimensions, value) of each field; of a list of records their values in a list.
+pybind11::list fieldsOf(const std::vector<Group>& groups);
 
 /// So many threads, as many as the machine has unless stated. Throws std::invalid_argument for none.
 int threads(const std::optional<int>& jobs);

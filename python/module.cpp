@@ -8,4 +8,5 @@ PYBIND11_MODULE(_gamut, module) {
   bindFlow(module);
   bindStudies(module);
   bindResults(module);
+  bindSweeps(module);
 }

@@ -51,29 +51,6 @@ py::object valueOf(const Field& field, const GridShape& shape) {
                     field.value);
 }
 
-/// (path, unit, meaning, dimensions, value) of each field; of a list of records their values in a list.
-py::list fieldsOf(const Results& results) {
-  const std::vector<Group> groups = describe(results);
-  const Extents extents = extentsOf(groups);
-  py::list all;
-  for (const Group& group : groups) {
-    if (group.size == 0) continue;
-    std::vector<py::list> columns;
-    for (std::size_t i = 0; i < group.size; ++i) {
-      const std::vector<Field> fields = group.fields(i);
-      columns.resize(fields.size());
-      for (std::size_t f = 0; f < fields.size(); ++f)
-        columns[f].append(valueOf(fields[f], shapeOf(fields[f].dimensions, extents)));
-    }
-    const std::vector<Field> fields = group.fields(0);
-    for (std::size_t f = 0; f < fields.size(); ++f)
-      all.append(py::make_tuple(pathOf(group, fields[f]), fields[f].unit, fields[f].meaning,
-                                dimensionsOf(group, fields[f]),
-                                group.isList() ? py::object(columns[f]) : py::object(columns[f][0])));
-  }
-  return all;
-}
-
 py::list requirementsOf(const Results& results) {
   py::list all;
   for (const RequirementWords& words : wordsOfRequirements(results))
@@ -157,9 +134,30 @@ std::string compared(const Held& first, const Held& second, const std::string& o
 
 }  // namespace
 
+py::list fieldsOf(const std::vector<Group>& groups) {
+  const Extents extents = extentsOf(groups);
+  py::list all;
+  for (const Group& group : groups) {
+    if (group.size == 0) continue;
+    std::vector<py::list> columns;
+    for (std::size_t i = 0; i < group.size; ++i) {
+      const std::vector<Field> fields = group.fields(i);
+      columns.resize(fields.size());
+      for (std::size_t f = 0; f < fields.size(); ++f)
+        columns[f].append(valueOf(fields[f], shapeOf(fields[f].dimensions, extents)));
+    }
+    const std::vector<Field> fields = group.fields(0);
+    for (std::size_t f = 0; f < fields.size(); ++f)
+      all.append(py::make_tuple(pathOf(group, fields[f]), fields[f].unit, fields[f].meaning,
+                                dimensionsOf(group, fields[f]),
+                                group.isList() ? py::object(columns[f]) : py::object(columns[f][0])));
+  }
+  return all;
+}
+
 void bindResults(py::module_& module) {
   py::class_<Results, Held>(module, "Results")
-      .def("fields", fieldsOf)
+      .def("fields", [](const Results& r) { return fieldsOf(describe(r)); })
       .def("requirements", requirementsOf)
       .def("verdict", verdictOf)
       .def("ended", whyEnded)

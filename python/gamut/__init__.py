@@ -15,9 +15,10 @@ from .functions import *  # noqa: F403
 from .functions import __all__ as _functions
 from .results import Bounds, Output, Results, Tolerances, Verdict, compare, open  # noqa: A004
 from .study import Quantities, Quantity, Study
+from .sweep import Sweep
 
 __all__ = [
     "Bounds", "Flow", "Interrupted", "Interval", "NotComparable", "Output", "Program", "Quantities", "Quantity",
-    "Recorded", "Results", "ResultsFileError", "Study", "StudyError", "Tolerances", "Tube", "Verdict", "compare", "open",
+    "Recorded", "Results", "ResultsFileError", "Study", "StudyError", "Sweep", "Tolerances", "Tube", "Verdict", "compare", "open",
     *_functions,
 ]  # fmt: skip

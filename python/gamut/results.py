@@ -375,8 +375,12 @@ class Results:
 
 
 def open(path):  # noqa: A001
-    """The results in a file that `gamut run` or Results.save wrote."""
+    """The results in a file that `gamut run` or Results.save wrote, or the Sweep of `gamut sweep` or Sweep.save."""
     name = os.fspath(path)
+    if _gamut.is_sweep(name):
+        from .sweep import Sweep
+
+        return Sweep(_gamut.open_sweep(name))
     return Results(_gamut.open(name), name)
 
 

@@ -223,13 +223,41 @@ class Study:
             raise Interrupted(found)
         return found
 
+    def sweep(self, over=None, *, points=None, file=None, overwrite=False, samples=None, seed=None, jobs=None,
+              time_limit=None, memory_limit=None, progress=True):  # fmt: skip
+        """Runs the study at many nominal values; returns a Sweep.
+
+        `over`: of each number that is varied, by its name as of `gamut sweep --over`, its values: "0.9:1.1:21", or a list
+        or array of numbers in the SI unit, or of texts with units; all combinations. `points`: instead a list of points,
+        a dictionary or a data frame with a column for each number. Without both: what the study's `sweep` section says.
+        `file`: where it is written on the way; the same sweep that is there already is gone on with, unless `overwrite`.
+        Other arguments as of run, limits of each point. Points run in processes of their own, `jobs` at a time. An
+        interrupt throws Interrupted, whose `results` are the Sweep with the points that had ended.
+        """
+        from .sweep import Sweep, _stated
+
+        _checked(samples, seed, jobs, time_limit, memory_limit)
+        grid, axes = _stated(over, points)
+        path = None if file is None else os.fspath(file)
+        show, wipe = told(progress)
+        try:
+            held, was_interrupted = _gamut.sweep(
+                self.to_toml(), self._name, grid, axes, path, overwrite, seed, samples, jobs, time_limit, memory_limit, show
+            )
+        finally:
+            wipe()
+        if was_interrupted:
+            raise Interrupted(Sweep(held))
+        return Sweep(held)
+
     def __repr__(self):
         title = self._data.get("study", {}).get("title", "untitled")
         return f"<gamut.Study '{title}'>"
 
 
 for _name in _SECTIONS:
-    setattr(Study, _name, _told_of(_name))
+    if not hasattr(Study, _name):  # sweep, which a study does, is stated to its constructor
+        setattr(Study, _name, _told_of(_name))
 for _name in _OF_STUDY - set(_SECTIONS):
     setattr(
         Study,
