@@ -70,6 +70,18 @@ configure_rooms(intervals "${FLAGS}"
   "Gamut has no component 'intervals', its components are scalars, mechanics, analyses, studies, reports")
 configure_rooms(scalars "${FLAGS} -ffast-math" "-ffast-math is refused")
 
+# What the guides show of CMake finds what it names.
+foreach(guide ${README} ${GUIDES})
+  file(READ ${guide} text)
+  if(text MATCHES "```cmake\n([^`]*)```")
+    file(WRITE ${BINARY}/shown/app.cpp "int main() {}\n")
+    file(WRITE ${BINARY}/shown/CMakeLists.txt
+      "cmake_minimum_required(VERSION 3.25)\nproject(Shown LANGUAGES C CXX)\nadd_executable(app app.cpp)\n${CMAKE_MATCH_1}")
+    run(${CMAKE_COMMAND} -S ${BINARY}/shown -B ${BINARY}/shown/build --fresh -G ${GENERATOR}
+      -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_PREFIX_PATH=${BINARY}/prefix)
+  endif()
+endforeach()
+
 # ---- Headers --------------------------------------------------------------------------------------------------------
 
 # Appends to `waiting` what the files include of Gamut, with its place below include/gamut.
