@@ -111,7 +111,7 @@ Samples tan(Samples x);
 Samples asin(Samples x);
 Samples acos(Samples x);
 Samples atan(Samples x);
-/// The angle of (x, y): y comes first, as in <cmath>.
+/// The angle of (x, y): y comes first, as in `<cmath>`.
 Samples atan2(Samples y, const Samples& x);
 Samples sinh(Samples x);
 Samples cosh(Samples x);
