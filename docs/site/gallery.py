@@ -64,7 +64,7 @@ def write(examples, readme, reports, folder):
     entries, names = [], []
     for name, line in lines.items():
         picture = _page(examples / name, line, reports, folder / name)
-        image = f"![]({name}/{picture})\n\n" if picture else ""
+        image = f"```{{image}} {name}/{picture}\n:width: 60%\n:alt: {name}\n```\n\n" if picture else ""
         entries.append(f"## [{name}]({name}/index.md)\n\n{_sentence(line)}\n\n{image}")
         names.append(f"{name}/index")
     first = (folder.parent / "gallery.md").read_text()

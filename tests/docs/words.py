@@ -14,8 +14,10 @@ NO_PROSE = re.compile(r"^```.*?^```$|^(?: {4}|\t)[^\n]*$|<!--.*?-->|`[^`\n]*`|\]
 
 
 def prose(file):
-    """What a reader reads of a page, or of the words between a notebook's cells."""
+    """What a reader reads of a page, of the words between a notebook's cells, or of what a study begins with."""
     text = file.read_text()
+    if file.suffix == ".toml":
+        text = re.sub(r"^# ?", "", re.match(r"(?:#.*\n)*", text)[0], flags=re.MULTILINE)
     if file.suffix == ".ipynb":
         cells = json.loads(text)["cells"]
         text = "\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "markdown")
@@ -33,7 +35,7 @@ def main():
     places = {}
     for file in map(pathlib.Path, sys.argv[2:]):
         for word in words(prose(file)) - set(known):
-            places.setdefault(word, []).append(file.name)
+            places.setdefault(word, []).append(f"{file.parent.name}/{file.name}")
     asked = ["aspell", "list", "--lang=en_GB", "--encoding=utf-8"]
     unknown = subprocess.run(asked, input="\n".join(places), text=True, capture_output=True, check=True).stdout.split()
     for word in sorted(unknown):
