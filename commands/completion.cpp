@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -26,10 +27,17 @@ struct CommandWords {
   std::vector<std::string> endings;  ///< of the files that it is told: "toml"
 };
 
-/// "toml" of "STUDY.toml"; empty of what is no file's name.
-std::string endingOf(const std::string& typeName) {
-  const auto dot = typeName.rfind('.');
-  return dot == std::string::npos ? "" : typeName.substr(dot + 1);
+/// "toml" of "STUDY.toml", "h5" and "urdf" of "RESULTS.h5|ROBOT.urdf";
+/// none of what is no file's name.
+std::vector<std::string> endingsOf(const std::string& typeName) {
+  std::vector<std::string> endings;
+  for (std::size_t begin = 0; begin < typeName.size();) {
+    const std::size_t end = std::min(typeName.find('|', begin), typeName.size());
+    const std::string name = typeName.substr(begin, end - begin);
+    if (const auto dot = name.rfind('.'); dot != std::string::npos) endings.push_back(name.substr(dot + 1));
+    begin = end + 1;
+  }
+  return endings;
 }
 
 std::string firstSentence(const std::string& help) { return help.substr(0, help.find_first_of(";\n")); }
@@ -41,11 +49,11 @@ std::vector<CommandWords> allCommands() {
     row.declare(app);
     CommandWords& words = all.emplace_back(row.name, firstSentence(row.help));
     for (const CLI::Option* option : app.get_options()) {
-      const std::string ending = endingOf(option->get_type_name());
-      if (option->get_positional() && !ending.empty()) words.endings.push_back(ending);
+      const std::vector<std::string> endings = endingsOf(option->get_type_name());
+      if (option->get_positional()) words.endings.insert(words.endings.end(), endings.begin(), endings.end());
       for (const std::string& name : option->get_lnames())
         words.options.push_back({"--" + name, firstSentence(option->get_description()),
-                                 option->get_expected_max() > 0 && option->get_type_size() > 0, !ending.empty()});
+                                 option->get_expected_max() > 0 && option->get_type_size() > 0, !endings.empty()});
     }
   }
   return all;

@@ -83,8 +83,9 @@ Action newStudy(CLI::App& command) {
       ->required()
       ->type_name("NAME");
   command
-      .add_option("--urdf", arguments->robot, "Of the robot that this file describes, which the study will refer to")
-      ->type_name("ROBOT.urdf");
+      .add_option("--robot,--urdf", arguments->robot,
+                  "Of the robot that this file (URDF or MJCF) describes, which the study will refer to")
+      ->type_name("ROBOT.urdf|ROBOT.xml");
   command.add_flag("--force", arguments->force, "Overwrite an existing file");
   return [arguments] { return write(*arguments); };
 }

@@ -123,10 +123,13 @@ std::string studyOf(const Robot& robot, const std::string& path) {
       "# How a robot moves when nothing drives it: a study to start from. `gamut quantities` lists what in it can be\n"
       "# uncertain, and what can be looked at.\n\n"
       "[study]\ntitle = {}\nanalysis = \"dynamics\"\nhorizon = 0.2       # s\noutput_step = 0.01  # s\n\n"
-      "[mechanism]\nurdf = {}  # its path from here\nbase = \"fixed\"  # or \"free\"\n"
-      "gravity = [0, 0, -9.81]\ndamping = true   # of the joints, as the robot's file has it\n"
+      "[mechanism]\nrobot = {}  # its path from here\n{}{}"
+      "damping = true   # of the joints, as the robot's file has it\n"
       "friction = {}\nmimic = true     # joints that follow others do so\n",
       textInToml(robot.name.empty() ? "robot" : robot.name), textInToml(path),
+      robot.isWorld ? "" : "base = \"fixed\"  # or \"free\"\n",
+      robot.gravity ? "# gravity = [0, 0, -9.81]  # instead of what the robot's file has\n"
+                    : "gravity = [0, 0, -9.81]\n",
       hasFriction ? "false # dry friction; true: as the robot's file has it" : "true  # likewise");
 
   std::vector<const Robot::Joint*> free;

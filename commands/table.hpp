@@ -50,7 +50,7 @@ inline constexpr Command table[] = {
     {"tolerance", "How far the uncertain quantities may deviate so that all requirements are met", tolerance},
     {"sweep", "A study over a grid or a list of nominal values: its requirements' answers at each", sweep},
     {"report", "Write the report page of a results file", report},
-    {"info", "What a results file holds and where it comes from; or the tree of a robot (URDF)", info},
+    {"info", "What a results file holds and where it comes from; or the tree of a robot", info},
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},
     {"sample", "Many samples of outputs without integrating, each with its proved error", sample},
     {"schema", "What a study file may hold, as JSON Schema: for editors, which complete and check it", schema},

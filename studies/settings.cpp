@@ -281,14 +281,16 @@ void describeMechanism(Settings& s, bool hasRobot, RobotChoices& robot) {
          "dependent"},
         R"({"enum": ["dependent", "multipliers"]})");
   s.own({"element"}, "elements");
-  s.own({"urdf", "a robot's description (URDF), from the study's folder"}, text);
+  s.own({"robot", "a robot's description (URDF or MJCF), from the study's folder"}, text);
+  s.own({"urdf", "the same; the older word"}, text);
   if (!hasRobot) return;
   s.choice({"base", "of the robot: whether its root moves freely", "fixed"}, {"fixed", "free"},
            [&](const std::string& word) { robot.isFree = word == "free"; });
   s.flag({"damping", "of the robot: whether joints have their viscous damping", "true"}, robot.damping);
   s.flag({"friction", "of the robot: whether joints have their dry friction", "true"}, robot.friction);
+  s.flag({"springs", "of the robot: whether joints have their springs", "true"}, robot.springs);
   s.flag({"mimic", "of the robot: whether joints follow others", "true"}, robot.mimic);
-  s.flag({"collision", "of the robot: whether links carry the shapes of <collision>", "false"}, robot.collision);
+  s.flag({"collision", "of the robot: whether links carry the shapes by which they touch", "false"}, robot.collision);
   s.own({"initial", "of the robot: where its joints are at the start, and how fast", "0"}, R"({"type": "object"})");
 }
 

@@ -95,11 +95,11 @@ class Settings {
   }
 };
 
-/// What of a robot (URDF) is taken, and how it stands.
+/// What of a robot is taken, and how it stands.
 struct RobotChoices {
   bool isFree = false;  ///< its root moves in six degrees of freedom; else it is fixed to the inertial frame
-  bool damping = true, friction = true, mimic = true;
-  bool collision = false;  ///< links have the shapes of their <collision>
+  bool damping = true, friction = true, springs = true, mimic = true;
+  bool collision = false;  ///< links have the shapes by which they touch
 };
 
 /// The keys of [mechanism], those of a robot where there is one.

@@ -110,7 +110,7 @@ struct Study {
 
   std::string text;   ///< of the file, word for word
   std::string file;   ///< as it was named
-  std::string robot;  ///< text of the URDF file that it names, word for word; empty without one
+  std::string robot;  ///< text of the robot's file that it names (textOfRobot); empty without one
   NamedTexts tables;  ///< of the CSV files that it names, word for word, by these names
   std::string title;
   Analysis analysis = Analysis::dynamics;

@@ -43,15 +43,16 @@ class MechanismReader {
         atHand_(files),
         dependents_(std::move(dependents)),
         redundant_(std::move(redundant)),
-        section_(source, table, "mechanism", keysOf(described(table.contains("urdf")))) {}
+        section_(source, table, "mechanism", keysOf(described(table.contains("urdf") || table.contains("robot")))) {}
 
   ReadMechanism read() {
     readParameters(section_, "");
     if (const toml::node* gravity = section_.find("gravity")) guarded(*gravity, [&] { setGravity(*gravity); });
     const toml::node* shaking = section_.find("base_acceleration");
     if (shaking != nullptr) guarded(*shaking, [&] { setBaseAcceleration(*shaking); });
-    const toml::node* robot = section_.find("urdf");
-    if (robot != nullptr) addRobot(*robot);
+    const char* const word = section_.find("robot") != nullptr ? "robot" : "urdf";
+    const toml::node* robot = section_.find(word);
+    if (robot != nullptr) addRobot(*robot, section_.nameOf(word));
     const std::size_t ofRobot = mechanism_.elements().size();
     const toml::node* element = section_.find("element");
     if (element != nullptr || (robot == nullptr && section_.find("parameters") == nullptr)) {
@@ -87,14 +88,21 @@ class MechanismReader {
 
   // ---- A robot ------------------------------------------------------------------------------------------------------
 
-  void addRobot(const toml::node& node) {
-    const std::string path = source_.asText(node, "mechanism.urdf");
+  void addRobot(const toml::node& node, const std::string& key) {
+    if (const toml::node* other = section_.find("urdf"); other != nullptr && other != &node)
+      source_.fail(*other, "'urdf' beside 'robot'", "one robot");
+    const std::string path = source_.asText(node, key);
     const std::string found = (source_.folder() / path).string();
     files_.robot = atHand_ ? atHand_->robot : textOfRobotAt(node, found);
     readSettings(section_, described(true));
     const Robot robot =
         readRobotText(files_.robot, atHand_ ? path + " in " + source_.name() : found, choices_.collision);
     notes_ = robot.notes;
+    if (robot.isWorld && choices_.isFree)
+      source_.fail(*section_.find("base"), "mechanism.base is \"free\", but the robot's file says itself what is free",
+                   "\"fixed\", or no such key");
+    if (robot.gravity && section_.find("gravity") == nullptr)
+      guarded(node, [&] { mechanism_.setGravity({(*robot.gravity)[0], (*robot.gravity)[1], (*robot.gravity)[2]}); });
 
     const toml::node* initial = section_.find("initial");
     std::map<std::string, const toml::node*> given;
@@ -114,9 +122,9 @@ class MechanismReader {
       } catch (const WrongNumber& error) {
         guarded(node, [&]() -> void { throw error; });
       } catch (const Refusal& error) {
-        refuseRobot(robot, element.line, error.problem(), error.expected());
+        refuseRobot(element.place, error.problem(), error.expected());
       } catch (const std::invalid_argument& error) {
-        refuseRobot(robot, element.line, error.what());
+        refuseRobot(element.place, error.what());
       }
     }
     if (!given.empty()) {
@@ -133,10 +141,9 @@ class MechanismReader {
     }
   }
 
-  [[noreturn]] static void refuseRobot(const Robot& robot, int line, const std::string& what,
+  [[noreturn]] static void refuseRobot(const std::string& place, const std::string& what,
                                        const std::string& expected = "") {
-    throw StudyError(fmt::format("{}:{}", robot.file, line), withoutSemicolons(what),
-                     expected.empty() ? "a robot whose parts fit together" : expected);
+    throw StudyError(place, withoutSemicolons(what), expected.empty() ? "a robot whose parts fit together" : expected);
   }
 
   /// Every value in tables within tables, by the names of all of them.

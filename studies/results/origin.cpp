@@ -13,7 +13,9 @@ std::vector<Field> fieldsOfRoot(Origin& o) {
 
 std::vector<Field> fieldsOfStudy(Origin& o) {
   return {{"text", WholeText{&o.studyText}, unit::none, "the study file, word for word"},
-          {"urdf", WholeText{&o.robotText}, unit::none, "the robot's file that it names, word for word; else empty"},
+          {"urdf", WholeText{&o.robotText}, unit::none,
+           "the robot's file that it names, word for word (of one that includes others a JSON object, texts by name); "
+           "else empty"},
           {"tables", WholeText{&o.tablesText}, unit::none,
            "the tables (CSV) that it names, word for word: a JSON object, texts by name; else empty"},
           {"file", &o.studyFile, unit::none, "name of the study file"},

@@ -4,20 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "mechanics/description/names.hpp"
-#include "mechanics/description/units.hpp"
-#include "mechanics/element_types.hpp"
 #include "mechanics/elements/inertia.hpp"
-#include "studies/readable.hpp"
-#include "studies/robots/robot.hpp"
-#include "studies/robots/xml_source.hpp"
+#include "studies/robots/robot_formats.hpp"
+#include "studies/robots/robot_parts.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -25,99 +18,25 @@ namespace {
 
 using Tag = XmlSource::Element;
 
-constexpr std::size_t mostLinks = 1000;
-constexpr std::uintmax_t mostBytes = 4'000'000;  // meshes lie in files of their own
-
-constexpr std::pair<Robot::Type, std::string_view> types[] = {
-    {Robot::Type::revolute, "revolute"}, {Robot::Type::continuous, "continuous"}, {Robot::Type::prismatic, "prismatic"},
-    {Robot::Type::fixed, "fixed"},       {Robot::Type::planar, "planar"},         {Robot::Type::floating, "floating"}};
-
-/// By how many coordinates and speeds a joint of this type moves.
-class Freedom final : public Onlooker {
- public:
-  explicit Freedom(Robot::Type type) {
-    Described element = elementOf(type);
-    element.describe(*this);
-  }
-
-  int coordinates = 0, speeds = 0;
-
-  void coordinate(const Word& /*position*/, Expression& /*initial*/, Coordinate /*kind*/, const Word& /*rate*/,
-                  Expression& /*initialRate*/) override {
-    ++coordinates;
-    ++speeds;
-  }
-  void speed(const Word& /*word*/, Expression& /*initial*/) override { ++speeds; }
-};
-
-template <class Named>
-auto find(const std::vector<Named>& all, const std::string& name) {
-  return std::ranges::find(all, name, &Named::name);
-}
-
-/// A direction by whole numbers, where doubles hold them: 0.6 0 0.8 is exactly that of 3 0 4.
-Axis directionOf(const std::vector<std::string>& decimals) {
-  mpq_class parts[3];
-  mpz_class common = 1, divisor = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    parts[i] = parseAmount(decimals[i]).value;
-    common = lcm(common, parts[i].get_den());
-  }
-  for (const mpq_class& part : parts) divisor = gcd(divisor, mpq_class(part * common).get_num());
-  double direction[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    const mpz_class whole = mpq_class(parts[i] * common).get_num() / divisor;
-    direction[i] = whole.get_d();
-    if (mpz_class(direction[i]) != whole || std::abs(direction[i]) > 0x1p53) {  // the nearest doubles, then
-      for (std::size_t k = 0; k < 3; ++k) direction[k] = nearest(parseAmount(decimals[k]));
-      break;
-    }
-  }
-  return {direction[0], direction[1], direction[2]};
-}
-
-/// What a file holds beyond what is read, by name, with the line of the first.
-class LeftOut {
- public:
-  void add(const std::string& word, int line) {
-    if (first_ == 0) first_ = line;
-    ++counts_[word];
-  }
-  /// A note, if there is anything: "<a> (2), <b>" and `what`.
-  void say(const XmlSource& source, const std::string& what, std::vector<std::string>& notes) const {
-    if (counts_.empty()) return;
-    std::vector<std::string> words;
-    for (const auto& [word, count] : counts_) {
-      if (words.size() == 12) {
-        words.emplace_back("…");
-        break;
-      }
-      words.push_back(count == 1 ? word : fmt::format("{} ({})", word, count));
-    }
-    notes.push_back(source.note(first_, fmt::format("{}{}", fmt::join(words, ", "), what)));
-  }
-
- private:
-  std::map<std::string, int> counts_;
-  int first_ = 0;
-};
+constexpr std::pair<std::string_view, Robot::Type> urdfTypes[] = {
+    {"revolute", Robot::Type::revolute}, {"continuous", Robot::Type::continuous}, {"prismatic", Robot::Type::prismatic},
+    {"fixed", Robot::Type::fixed},       {"planar", Robot::Type::planar},         {"floating", Robot::Type::floating}};
 
 class UrdfReader {
  public:
-  UrdfReader(const std::string& text, const std::string& name, bool takesShapes)
-      : source_(text, name), takesShapes_(takesShapes) {
-    robot_.file = name;
+  UrdfReader(const XmlSource& source, bool takesShapes) : source_(source), takesShapes_(takesShapes) {
+    robot_.file = source.name();
   }
 
   Robot read() {
-    const Tag& root = source_.root("robot");
+    const Tag& root = source_.root();
     lookAt(root, {"name", "version"}, {"link", "joint"});
     if (root.Attribute("name") != nullptr) robot_.name = source_.requiredName(root, "name", "the robot's name");
     for (const Tag* e = root.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) readLink(*e);
     for (const Tag* e = root.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint"))
       readJoint(*e);
     if (robot_.links.empty()) source_.fail(root.GetLineNum(), "<robot> has no <link>", "one at least");
-    checkMimics();
+    checkMimics(robot_);
     sortOutwards();
     say();
     return std::move(robot_);
@@ -168,7 +87,7 @@ class UrdfReader {
     else
       lookAt(element, {"name", "type"}, {"inertial"});
     Robot::Link link{source_.requiredName(element, "name", "the name of the link"), element.GetLineNum()};
-    if (const auto other = find(robot_.links, link.name); other != robot_.links.end())
+    if (const auto other = findNamed(robot_.links, link.name); other != robot_.links.end())
       source_.fail(link.line, fmt::format("there is a link {} in line {} already", inQuotes(link.name), other->line),
                    "a name for each");
     if (const Tag* inertial = source_.child(element, "inertial")) link.inertial = readInertial(*inertial, link.name);
@@ -247,7 +166,7 @@ class UrdfReader {
     Robot::Joint joint;
     joint.line = element.GetLineNum();
     joint.name = source_.requiredName(element, "name", "the name of the joint");
-    if (const auto other = find(robot_.joints, joint.name); other != robot_.joints.end())
+    if (const auto other = findNamed(robot_.joints, joint.name); other != robot_.joints.end())
       source_.fail(joint.line, fmt::format("there is a joint {} in line {} already", inQuotes(joint.name), other->line),
                    "a name for each");
     joint.type = readType(element);
@@ -270,7 +189,7 @@ class UrdfReader {
   Robot::Type readType(const Tag& element) const {
     const std::string word = source_.requiredName(element, "type", "its type, such as \"revolute\"");
     std::vector<std::string> words;
-    for (const auto& [type, name] : types) {
+    for (const auto& [name, type] : urdfTypes) {
       if (word == name) return type;
       words.emplace_back(name);
     }
@@ -283,7 +202,7 @@ class UrdfReader {
     const Tag& found = source_.requiredChild(element, end, fmt::format("<{} link=\"…\"/>", end));
     lookAt(found, {"link"}, {});
     const std::string name = source_.requiredName(found, "link", "the name of a link");
-    if (find(robot_.links, name) == robot_.links.end()) {
+    if (findNamed(robot_.links, name) == robot_.links.end()) {
       std::vector<std::string> known;
       for (const Robot::Link& link : robot_.links) known.push_back(link.name);
       source_.fail(found.GetLineNum(), fmt::format("there is no link {}", inQuotes(name)), expectedName(name, known));
@@ -332,32 +251,6 @@ class UrdfReader {
             source_.number(element, "multiplier", 1.0), source_.number(element, "offset", 0.0), element.GetLineNum()};
   }
 
-  /// Each follows a joint with one coordinate, and none itself in the end.
-  void checkMimics() const {
-    std::vector<std::string> known;
-    std::map<std::string, const Robot::Joint*> named;
-    for (const Robot::Joint& joint : robot_.joints) {
-      if (hasCoordinate(joint)) known.push_back(joint.name);
-      named[joint.name] = &joint;
-    }
-    for (const Robot::Joint& joint : robot_.joints) {
-      if (!joint.mimic) continue;
-      const int line = joint.mimic->line;
-      if (!hasCoordinate(joint))
-        source_.fail(line, fmt::format("{} is {} and follows another joint", inQuotes(joint.name), wordOf(joint.type)),
-                     "<mimic> in a joint that is revolute, continuous or prismatic");
-      if (std::ranges::count(known, joint.mimic->joint) == 0)
-        source_.fail(line, fmt::format("there is no joint {} to follow", inQuotes(joint.mimic->joint)),
-                     expectedName(joint.mimic->joint, known));
-      const Robot::Joint* leader = &joint;
-      for (std::size_t i = 0; leader != nullptr && leader->mimic && i <= named.size(); ++i)
-        leader = named[leader->mimic->joint];  // null where that joint is still to be looked at, and refused
-      if (leader != nullptr && leader->mimic)
-        source_.fail(line, fmt::format("{} follows joints that follow one another in a circle", inQuotes(joint.name)),
-                     "a joint in the end that follows none");
-    }
-  }
-
   /// Links and joints from the root outwards, branch by branch, in the file's order.
   void sortOutwards() {
     std::map<std::string, std::vector<const Robot::Joint*>> carried;  // by link
@@ -390,11 +283,11 @@ class UrdfReader {
       open.pop_back();
       joints.push_back(*joint);
       joints.back().depth = depth;
-      links.push_back(*find(robot_.links, joint->child));
+      links.push_back(*findNamed(robot_.links, joint->child));
       lookBehind(joint->child, depth + 1);
     }
     for (const Robot::Joint& joint : robot_.joints)
-      if (find(joints, joint.name) == joints.end())
+      if (findNamed(joints, joint.name) == joints.end())
         source_.fail(joint.line,
                      fmt::format("the links {} and {} carry one another in a circle, with joints such as {}",
                                  inQuotes(joint.parent), inQuotes(joint.child), inQuotes(joint.name)),
@@ -403,7 +296,7 @@ class UrdfReader {
     robot_.joints = std::move(joints);
   }
 
-  XmlSource source_;
+  const XmlSource& source_;
   Robot robot_;
   bool takesShapes_;
   LeftOut shapes_, meshes_, cylinders_, elements_, attributes_, limits_;
@@ -411,41 +304,6 @@ class UrdfReader {
 
 }  // namespace
 
-std::string_view wordOf(Robot::Type type) {
-  return std::ranges::find(types, type, &std::pair<Robot::Type, std::string_view>::first)->second;
-}
-
-const Described& elementOf(Robot::Type type) {
-  static const std::vector<Described> elements = elementTypes();
-  const std::string word(wordOf(type));
-  const auto found = std::ranges::find_if(
-      elements, [&](const Described& one) { return std::ranges::count(one.urdfTypes(), word) > 0; });
-  if (found == elements.end()) throw std::logic_error("no element is a joint of type " + word);
-  return *found;
-}
-
-bool hasCoordinate(const Robot::Joint& joint) {
-  const Freedom own(joint.type);
-  return own.coordinates == 1 && own.speeds == 1;
-}
-
-int freedomOf(const Robot::Joint& joint) { return joint.mimic ? 0 : Freedom(joint.type).speeds; }
-
-std::string textOfRobot(const std::string& path) {
-  const std::string expected = "a robot's description (URDF)";
-  if (const std::string fault = whyUnreadable(path); !fault.empty()) throw StudyError(path, fault, expected);
-  std::ifstream file(path, std::ios::binary);
-  std::string text(mostBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > mostBytes)
-    throw StudyError(path, fmt::format("has more than {} MB", mostBytes / 1'000'000),
-                     std::string(expected) + " without meshes");
-  return text;
-}
-
-Robot readRobotText(const std::string& text, const std::string& name, bool takesShapes) {
-  return UrdfReader(text, name, takesShapes).read();
-}
+Robot readUrdf(const XmlSource& source, bool takesShapes) { return UrdfReader(source, takesShapes).read(); }
 
 }  // namespace gamut

@@ -67,13 +67,11 @@ XmlSource::XmlSource(const std::string& text, std::string name) : name_(std::mov
   if (types.line != 0) fail(types.line, "a document type, or another <! … >", "XML without, as no entity is expanded");
 }
 
-const XmlSource::Element& XmlSource::root(const std::string& name) const {
+const XmlSource::Element& XmlSource::root() const {
   const Element* root = document_.RootElement();
-  if (root == nullptr) fail(1, "there is no element in it", fmt::format("<{}>", name));
-  if (name != root->Name())
-    fail(root->GetLineNum(), fmt::format("the outermost element is {}", tagOf(*root)), fmt::format("<{}>", name));
-  for (const Element* other = root->NextSiblingElement(); other != nullptr;)
-    fail(other->GetLineNum(), fmt::format("{} follows <{}>", tagOf(*other), name), "one outermost element");
+  if (root == nullptr) fail(1, "there is no element in it", "elements such as <robot> … </robot>");
+  if (const Element* other = root->NextSiblingElement())
+    fail(other->GetLineNum(), fmt::format("{} follows {}", tagOf(*other), tagOf(*root)), "one outermost element");
   return *root;
 }
 
@@ -113,13 +111,12 @@ std::string XmlSource::requiredName(const Element& element, const char* attribut
   return name;
 }
 
-std::vector<std::string> XmlSource::decimals(const Element& element, const char* attribute, std::size_t count) const {
-  const std::string what = fmt::format("'{}' of {}", attribute, tagOf(element));
-  const std::string expected = count == 1 ? "a decimal number, such as 0.5" : fmt::format("{} decimal numbers", count);
-  const int line = element.GetLineNum();
-  const char* value = element.Attribute(attribute);
-  if (value == nullptr) fail(line, fmt::format("{} has no '{}'", tagOf(element), attribute), expected);
-  const std::string text(value), blanks = " \t\r\n";
+std::vector<std::string> XmlSource::decimals(const Stated& stated, std::size_t least, std::size_t most) const {
+  const std::string expected = most == 1       ? "a decimal number, such as 0.5"
+                               : least == most ? fmt::format("{} decimal numbers", most)
+                                               : fmt::format("{} to {} decimal numbers", least, most);
+  const std::string blanks = " \t\r\n";
+  const auto& [text, what, line] = stated;
   if (text.find("${") != std::string::npos || text.find("$(") != std::string::npos)
     fail(line, fmt::format("{} is \"{}\", which only xacro can read", what, shortened(text)),
          "the file that xacro makes of this one");
@@ -132,21 +129,33 @@ std::vector<std::string> XmlSource::decimals(const Element& element, const char*
     tokens.push_back(token);
     at = text.find_first_not_of(blanks, end);
   }
-  if (tokens.size() != count)
+  if (tokens.size() < least || tokens.size() > most)
     fail(line, fmt::format("{} has {} {}", what, tokens.size(), tokens.size() == 1 ? "number" : "numbers"), expected);
   return tokens;
 }
 
-std::vector<Interval> XmlSource::numbers(const Element& element, const char* attribute, std::size_t count) const {
-  std::vector<Interval> numbers;
-  for (const std::string& decimal : decimals(element, attribute, count)) {
-    try {
-      numbers.push_back(enclose(parseAmount(decimal)));
-    } catch (const UnitError&) {
-      fail(element.GetLineNum(), fmt::format("'{}' of {} is \"{}\"", attribute, tagOf(element), shortened(decimal)),
-           "a decimal number, such as 0.5");
-    }
+std::vector<std::string> XmlSource::decimals(const Element& element, const char* attribute, std::size_t count) const {
+  const std::string what = fmt::format("'{}' of {}", attribute, tagOf(element));
+  const char* value = element.Attribute(attribute);
+  if (value == nullptr)
+    fail(element.GetLineNum(), fmt::format("{} has no '{}'", tagOf(element), attribute),
+         count == 1 ? "a decimal number, such as 0.5" : fmt::format("{} decimal numbers", count));
+  return decimals({value, what, element.GetLineNum()}, count, count);
+}
+
+Interval XmlSource::enclosure(const Stated& stated, const std::string& decimal, const char* unit) const {
+  try {
+    return enclose(parseAmount(*unit == '\0' ? decimal : fmt::format("{} {}", decimal, unit)));
+  } catch (const UnitError&) {
+    fail(stated.line, fmt::format("{} is \"{}\"", stated.what, shortened(decimal)), "a decimal number, such as 0.5");
   }
+}
+
+std::vector<Interval> XmlSource::numbers(const Element& element, const char* attribute, std::size_t count) const {
+  const std::string what = fmt::format("'{}' of {}", attribute, tagOf(element));
+  std::vector<Interval> numbers;
+  for (const std::string& decimal : decimals(element, attribute, count))
+    numbers.push_back(enclosure({decimal, what, element.GetLineNum()}, decimal));
   return numbers;
 }
 

@@ -24,8 +24,8 @@ class XmlSource {
   /// `name` is what messages call the file. Throws StudyError for text that is not XML in UTF-8.
   XmlSource(const std::string& text, std::string name);
 
-  /// Throws StudyError unless it is called `name`.
-  const Element& root(const std::string& name) const;
+  /// Throws StudyError if there is none, or more than one.
+  const Element& root() const;
 
   /// Throws StudyError "file:line: what; expected …".
   [[noreturn]] void fail(int line, const std::string& what, const std::string& expected) const;
@@ -44,6 +44,17 @@ class XmlSource {
   Interval number(const Element& element, const char* attribute, const Interval& otherwise) const;
   /// The texts of the numbers.
   std::vector<std::string> decimals(const Element& element, const char* attribute, std::size_t count) const;
+
+  /// A text that holds numbers, and how messages call it.
+  struct Stated {
+    std::string text, what;
+    int line = 0;
+  };
+  /// Its decimals, `least` to `most` of them.
+  std::vector<std::string> decimals(const Stated& stated, std::size_t least, std::size_t most) const;
+  /// The tightest enclosure of a decimal, of this unit if one is named; in SI units.
+  Interval enclosure(const Stated& stated, const std::string& decimal, const char* unit = "") const;
+  const std::string& name() const { return name_; }
 
  private:
   std::string name_;

@@ -49,13 +49,13 @@ TEST_F(RobotCommands, NewWritesAStudyThatRunsAndRefersToTheFile) {
   std::filesystem::create_directory(folder_.path("robots"));
   std::filesystem::create_directory(folder_.path("studies"));
   folder_.write("robots/r.urdf", sampleRobot);
-  const Outcome written = gamut("new studies/arm --urdf robots/r.urdf");
+  const Outcome written = gamut("new studies/arm --robot robots/r.urdf");
   EXPECT_EQ(written.exitCode, 0) << written.error;
   EXPECT_THAT(written.out, StartsWith("studies/arm.toml: a study to start from\n"));
   const std::string study = folder_.read("studies/arm.toml");
-  for (const char* line :
-       {"urdf = \"../robots/r.urdf\"", "friction = false", "hinge.angle = \"0.2 rad\"", "slider.displacement = \"0 m\"",
-        "left-finger.angle = \"0.2 rad\"", "quantity = \"upper.mass\"\ninterval = \"± 1 %\""})
+  for (const char* line : {"robot = \"../robots/r.urdf\"", "friction = false", "hinge.angle = \"0.2 rad\"",
+                           "slider.displacement = \"0 m\"", "left-finger.angle = \"0.2 rad\"",
+                           "quantity = \"upper.mass\"\ninterval = \"± 1 %\""})
     EXPECT_THAT(study, HasSubstr(line));
   const Outcome run = gamut("run studies/arm.toml --samples 64 --jobs 2 -o arm.h5 --report arm.html");
   EXPECT_EQ(run.exitCode, 0) << run.error;
@@ -63,7 +63,7 @@ TEST_F(RobotCommands, NewWritesAStudyThatRunsAndRefersToTheFile) {
   std::filesystem::remove(folder_.path("robots/r.urdf"));
   EXPECT_EQ(gamut("replay arm.h5 0").exitCode, 0) << "the results hold the robot";
   expectRefused("validate studies/arm.toml",
-                "studies/arm.toml:11:8: studies/../robots/r.urdf: does not exist; expected");
+                "studies/arm.toml:11:9: studies/../robots/r.urdf: does not exist; expected");
 }
 
 TEST_F(RobotCommands, NewSaysWhatKeepsAStudyFromRunning) {
@@ -74,7 +74,8 @@ TEST_F(RobotCommands, NewSaysWhatKeepsAStudyFromRunning) {
   EXPECT_EQ(written.exitCode, 0);
   EXPECT_THAT(written.error, HasSubstr("note: this study does not run as it is: r.toml:"));
   EXPECT_THAT(written.error, HasSubstr("the joint 'j' moves no mass"));
-  expectRefused("new r.urdf --urdf none.urdf", "none.urdf: does not exist; expected a robot's description (URDF)");
+  expectRefused("new r.urdf --urdf none.urdf",
+                "none.urdf: does not exist; expected a robot's description (URDF or MJCF)");
 }
 
 TEST_F(RobotCommands, RefuseWhatIsNoRobotInOneLine) {
@@ -84,7 +85,7 @@ TEST_F(RobotCommands, RefuseWhatIsNoRobotInOneLine) {
   EXPECT_FALSE(folder_.has("r.toml"));
   folder_.write("empty.urdf", "");
   expectRefused("info empty.urdf", "empty.urdf:1: not valid XML: there is nothing in it");
-  expectRefused("info none.urdf", "none.urdf: does not exist; expected a robot's description (URDF)");
+  expectRefused("info none.urdf", "none.urdf: does not exist; expected a robot's description (URDF or MJCF)");
   folder_.write("s.toml", "[mechanism]\nurdf = \"bad.urdf\"\n");
   expectRefused("quantities s.toml", "bad.urdf:3: 'b' has no parent");
 }
@@ -94,7 +95,8 @@ TEST_F(RobotCommands, LookAtALargeFileWithinLittleMemory) {
   const std::string limited = "ulimit -v 400000; ";
   const Outcome info = gamut("info large.urdf", limited);
   EXPECT_EQ(info.exitCode, 2) << info.error;
-  EXPECT_EQ(info.error, "large.urdf: has more than 4 MB; expected a robot's description (URDF) without meshes\n");
+  EXPECT_EQ(info.error,
+            "large.urdf: has more than 4 MB; expected a robot's description (URDF or MJCF) without meshes\n");
   // As many elements as such a file can hold.
   std::string many = "<robot name=\"r\"><link name=\"a\"/>";
   while (many.size() < 3'990'000) many += "<b/>";

@@ -1,0 +1,15 @@
+// The formats that robots are read from.
+#pragma once
+
+#include "studies/named_texts.hpp"
+#include "studies/robots/robot.hpp"
+#include "studies/robots/xml_source.hpp"
+
+namespace gamut {
+
+/// Throw StudyError. The shapes by which links touch are taken if they are asked for.
+Robot readUrdf(const XmlSource& source, bool takesShapes);
+/// `included`: texts of the files that it includes, by the names by which it does.
+Robot readMjcf(const XmlSource& source, const NamedTexts& included, bool takesShapes);
+
+}  // namespace gamut
