@@ -27,9 +27,10 @@ struct CommandWords {
   std::vector<std::string> endings;  ///< of the files that it is told: "toml"
 };
 
-/// "toml" of "STUDY.toml", "h5" and "urdf" of "RESULTS.h5|ROBOT.urdf";
+/// "toml" of "STUDY.toml", and "json", as which studies may be written too; "h5" and "urdf" of "RESULTS.h5|ROBOT.urdf";
 /// none of what is no file's name.
 std::vector<std::string> endingsOf(const std::string& typeName) {
+  if (typeName == "STUDY.toml") return {"toml", "json"};
   std::vector<std::string> endings;
   for (std::size_t begin = 0; begin < typeName.size();) {
     const std::size_t end = std::min(typeName.find('|', begin), typeName.size());

@@ -38,7 +38,7 @@ CLI::Validator amount(const Dimension& dimension, const std::string& what, bool 
 }  // namespace
 
 void addStudy(CLI::App& command, std::string& path) {
-  addInput(command, path, "study", "Study file (TOML); - for standard input", "STUDY.toml");
+  addInput(command, path, "study", "Study file (TOML, or JSON); - for standard input", "STUDY.toml");
 }
 
 void addResults(CLI::App& command, std::string& path) {

@@ -111,10 +111,18 @@ def _checked(samples, seed, jobs, time_limit, memory_limit):
             raise ValueError(f"{name} = {value!r}: expected a number above 0")
 
 
+def _is_json(text):
+    return text.lstrip(" \t\r\n").startswith("{")
+
+
+def _loaded(text):
+    return json.loads(text) if _is_json(text) else tomllib.loads(text)
+
+
 class Study:
     """A study file, or the same words in Python.
 
-    `Study("arm.toml")` reads a file. `Study(title=..., horizon=..., mechanism={...}, uncertain=[...], output=[...])` is
+    `Study("arm.toml")` reads a file, in JSON too. `Study(title=..., horizon=..., mechanism={...}, uncertain=[...], output=[...])` is
     built of the words of the file: each section is a keyword, a dictionary or a list of dictionaries; the keys of
     `[study]` may stand alone. Sections are attributes, and their settings attributes of these, with docstrings: `study.interval.tightness = 1.01`. What makes no sense is told by StudyError
     when it is used, with line and column of `to_toml()`.
@@ -159,21 +167,36 @@ class Study:
 
     def _parse(self):
         try:
-            data = tomllib.loads(self._text)
-        except tomllib.TOMLDecodeError:
+            data = _loaded(self._text)
+        except ValueError:
             _gamut.read(self._text, self._name, None)  # says where and what
             raise
         self._data = {k: _taken(k, v) if k in _SECTIONS and isinstance(v, (dict, list)) else v for k, v in data.items()}
 
     def to_toml(self):
         """The study as a file: word for word the one that was read, unless something was changed since."""
-        stated = {k: v for k, v in self._data.items() if v or k not in _SECTIONS}
-        if self._text is not None and tomllib.loads(self._text) == stated:
-            return self._text
-        return toml.dumps(stated)
+        text = self._as_read()
+        return toml.dumps(self._stated()) if text is None or _is_json(text) else text
+
+    def to_json(self):
+        """The same in JSON, which `gamut` reads as well."""
+        text = self._as_read()
+        if text is not None and _is_json(text):
+            return text
+        return json.dumps(tomllib.loads(self.to_toml()), ensure_ascii=False, allow_nan=False, indent=2) + "\n"
+
+    def _stated(self):
+        return {k: v for k, v in self._data.items() if v or k not in _SECTIONS}
+
+    def _as_read(self):
+        """The file's text, if it says what is stated now."""
+        return self._text if self._text is not None and _loaded(self._text) == self._stated() else None
+
+    def _text_now(self):
+        return self._as_read() or self.to_toml()
 
     def _read(self, show=None):
-        text = self.to_toml()
+        text = self._text_now()
         if self._machine[0] != text:
             machine, was_interrupted = _gamut.read(text, self._name, show)
             if was_interrupted:
@@ -187,7 +210,7 @@ class Study:
 
     def quantities(self):
         """What of the mechanism can be uncertain, and what can be an output. The rest of the study may be missing."""
-        numbers, outputs = _gamut.quantities(self.to_toml(), self._name)
+        numbers, outputs = _gamut.quantities(self._text_now(), self._name)
         return Quantities(*({q[0]: Quantity(*q) for q in of} for of in (numbers, outputs)))
 
     def run(self, *, samples=None, seed=None, jobs=None, time_limit=None, memory_limit=None, progress=True):

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "mechanics/description/names.hpp"
 #include "studies/printable.hpp"
@@ -104,6 +105,13 @@ std::string meantName(const std::string& word, const std::vector<std::string>& k
 TomlSource::TomlSource(std::string text, std::string name, const std::string& kind)
     : text_(std::move(text)), name_(std::move(name)), lineStarts_{0} {
   if (text_.find('\0') != std::string::npos) throw StudyError(name_, "is no text", kind);
+  if (looksLikeJson(text_)) {
+    json_ = tomlOfJson(text_);
+    const auto& [line, column] = json_->faultAt;
+    if (!json_->fault.empty())
+      throw StudyError(fmt::format("{}:{}:{}", name_, line, column), json_->fault, json_->expected);
+    text_ = std::exchange(json_->text, {});
+  }
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') lineStarts_.push_back(i + 1);
   checkKeys();
@@ -113,7 +121,7 @@ TomlSource::TomlSource(std::string text, std::string name, const std::string& ki
     const std::string what = oneLine(error.description());
     const toml::source_position at = error.source().begin;
     const std::string rest = at.line > 0 && at.line <= lineStarts_.size() ? text_.substr(placeAt(at)) : "";
-    fail(at, "not valid TOML: " + what, validInstead(what, rest));
+    fail(at, (json_ ? "no study: " : "not valid TOML: ") + what, validInstead(what, rest));
   }
 }
 
@@ -158,7 +166,9 @@ std::size_t TomlSource::lineOf(std::size_t place) const {
 }
 
 std::string TomlSource::placeOf(const toml::source_position& at) const {
-  return fmt::format("{}:{}:{}", name_, std::max<unsigned>(at.line, 1), std::max<unsigned>(at.column, 1));
+  TextPlace place{std::max<unsigned>(at.line, 1), std::max<unsigned>(at.column, 1)};
+  if (json_) place = json_->inJson(place);
+  return fmt::format("{}:{}:{}", name_, place.line, place.column);
 }
 
 void TomlSource::fail(const toml::source_position& at, const std::string& what, const std::string& expected) const {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "mechanics/description/expression.hpp"
+#include "studies/reading/json_text.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
@@ -21,10 +23,10 @@ namespace gamut {
 /// The known name that is meant by a word that is none: what others call so, or the nearest; empty: none.
 std::string meantName(const std::string& word, const std::vector<std::string>& known);
 
-/// The text of one TOML file and its parsed tree.
+/// The text of one TOML file and its parsed tree; or of JSON, as the same in TOML, whose places are those in the JSON.
 class TomlSource {
  public:
-  /// `name` is what messages call the file, `kind` what it should be. Throws StudyError for text that is not TOML.
+  /// `name` is what messages call the file, `kind` what it should be. Throws StudyError for text that is neither.
   TomlSource(std::string text, std::string name, const std::string& kind = "a study file (TOML)");
 
   const toml::table& root() const { return root_; }
@@ -94,6 +96,7 @@ class TomlSource {
                  const std::string& unit) const;
 
   std::string text_, name_;
+  std::optional<TomlOfJson> json_;  ///< of JSON, where its parts stand
   std::vector<std::size_t> lineStarts_;
   Names names_;
   toml::table root_;

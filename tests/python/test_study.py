@@ -22,6 +22,25 @@ def test_a_file_that_is_read_is_written_word_for_word():
     assert gamut.Study(path).to_toml() == path.read_text()
 
 
+def test_a_study_may_be_json(tmp_path):
+    path = EXAMPLES / "double_pendulum/study.toml"
+    text = gamut.Study(path).to_json()
+    (tmp_path / "study.json").write_text(text)
+    study = gamut.Study(tmp_path / "study.json")
+    assert study.to_json() == text
+    assert tomllib.loads(study.to_toml()) == tomllib.loads(path.read_text()) == json.loads(text)
+    assert study.quantities() == gamut.Study(path).quantities()
+    study.uncertain[0]["quantity"] = "shoulder.angel"
+    (tmp_path / "study.json").write_text(study.to_json())
+    with pytest.raises(gamut.StudyError) as wrong:
+        gamut.Study(tmp_path / "study.json").validate()
+    line = (tmp_path / "study.json").read_text().splitlines()[wrong.value.line - 1]
+    assert line[wrong.value.column - 1 :].startswith('"shoulder.angel"')
+    (tmp_path / "study.json").write_text('{"study": {"title": "a" "b"}}')
+    with pytest.raises(gamut.StudyError, match="not valid JSON"):
+        gamut.Study(tmp_path / "study.json")
+
+
 @pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*/*.toml")), ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_what_is_written_says_what_was_read(path):
     data = tomllib.loads(path.read_text())
