@@ -6,13 +6,14 @@ from dataclasses import dataclass
 
 @dataclass
 class Drawing:
-    """A drawing of a report: its `kind` is "machine", "spread" (around the middle) or "plot", `label` says what it shows."""
+    """A drawing of a report: its `kind` is one of those below or "plot", `label` says what it shows."""
 
     kind: str
     label: str
     svg: str
 
 
+_KINDS = {"The machine": "machine", "Plot of the spread": "spread", "Map of": "map"}  # by how their labels begin
 _DRAWING = re.compile(r'<svg class="(drawing[^"]*)" viewBox="([^"]*)"([^>]*)>(.*?)</svg>', re.DOTALL)
 _MEDIA = re.compile(r"@media[^{]*\{(?:[^{}]*\{[^{}]*\})*[^{}]*\}")
 
@@ -41,6 +42,6 @@ def drawings(report):
             f'font-family="system-ui, sans-serif">\n<style>{styles}</style>\n'
             f'<rect width="{width}" height="{height}" fill="#ffffff"/>{body}</svg>\n'
         )
-        kind = "machine" if "machine" in classes.split() else "spread" if label.startswith("Plot of the spread") else "plot"
+        kind = next((kind for words, kind in _KINDS.items() if label.startswith(words)), "plot")
         found.append(Drawing(kind, label, svg))
     return found

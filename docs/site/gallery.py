@@ -6,7 +6,7 @@ import tomllib
 
 from figures import drawings
 
-KINDS = ("machine", "plot", "spread")  # of the drawings that are shown, in this order
+KINDS = ("machine", "plot", "spread", "map")  # of the drawings that are shown, in this order
 
 
 def _taught(text):
@@ -25,7 +25,7 @@ def _sentence(line):
 
 
 def _pictures(report, folder):
-    """Writes a report's machine, first plot and first spread into the folder; their names and what they show."""
+    """Writes a report's machine and its first plot, spread and map into the folder; their names and what they show."""
     kept = {}
     for drawing in drawings(report):
         kept.setdefault(drawing.kind, drawing)
