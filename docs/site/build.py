@@ -49,7 +49,12 @@ def write_reports(program, studies, reports):
 
 # ---- Sources --------------------------------------------------------------------------------------------------------
 
-ELSEWHERE = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
+ELSEWHERE = {
+    "README.md": "index.md",
+    "README.md#command-line": "reference/commands.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "CHANGELOG.md": "changelog.md",
+}
 
 
 def _led(target, page):
@@ -60,8 +65,8 @@ def _led(target, page):
         place = place.relative_to("docs").with_suffix(".md" if place.suffix == ".ipynb" else place.suffix)
     elif place.parts[:2] == ("studies", "examples"):
         place = pathlib.Path("gallery", *place.parts[2:3], "index.md")
-    elif str(place) in ELSEWHERE:
-        place = pathlib.Path(ELSEWHERE[str(place)])
+    elif str(place) + target[len(path) :] in ELSEWHERE:
+        place, anchor = pathlib.Path(ELSEWHERE[str(place) + target[len(path) :]]), ""
     else:
         sys.exit(f"{page}: the site has nothing for the link to {target}")
     start = page.relative_to("docs").parent if page.parts[0] == "docs" else pathlib.Path()

@@ -39,6 +39,7 @@ def test_links_out_of_docs_are_led_to_what_the_site_has():
     assert build.with_links_led("[n](pendulum.ipynb) [w](https://a.b/c)", page) == "[n](pendulum.md) [w](https://a.b/c)"
     code = "`[x](../../tests)` and\n```cpp\n[&](auto) {}\n```"
     assert build.with_links_led(code, page) == code
+    assert build.with_links_led("[e](../../README.md#command-line)", page) == "[e](../reference/commands.md)"
     with pytest.raises(SystemExit, match="nothing for the link to ../../tests/docs"):
         build.with_links_led("[t](../../tests/docs)", page)
 
