@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "commands/files.hpp"
@@ -174,6 +175,10 @@ void nameOutputs(SweepArguments& arguments) {
   if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
   if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
     throw UsageError(arguments.report + ": is both results and report; expected two names");
+  for (const std::string& output : {arguments.results, arguments.report})
+    for (const std::string& input : {arguments.study, arguments.points})
+      if (std::error_code error; fs::equivalent(output, input, error))
+        throw UsageError(output + ": cannot be written; it is the input");
 }
 
 ExitCode sweep(SweepArguments arguments) {

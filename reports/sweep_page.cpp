@@ -24,6 +24,7 @@ constexpr std::size_t mostSlices = 24, mostOutputs = 20, mostPointRows = 200, mo
 
 constexpr std::string_view looks = R"(
 .trio { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 17rem), 1fr)); gap: 0 1.2rem; }
+.sweep .single { max-width: 34rem; }
 .trio figcaption { font-weight: 600; color: var(--ink); }
 .sweep .met { fill: var(--inside); background: var(--inside); }
 .sweep .violated { fill: var(--outside); background: var(--outside); }
@@ -244,7 +245,9 @@ std::string keyToDemands(bool isMap) {
          entryOf("violated", "violated for all") + entryOf("partly", "violated for some") + entryOf("open", "open") +
          entryOf("share", "probable: between proved bounds of the probability that it is met" + strength) +
          entryOf("necessity", "possible: between proved bounds of the necessity that it is met" + strength) +
-         entryOf("none", "no results") + "</ul>\n";
+         entryOf("none", "no results") + "</ul>\n" +
+         fmt::format("<p class=\"hint\">What lies between two points was not run: {}.</p>\n",
+                     isMap ? "cells reach half way to the next ones" : "lines only join them");
 }
 
 std::string captioned(const std::string& drawing, std::string_view caption) {

@@ -134,6 +134,8 @@ TEST_F(SweepCommand, RefusesBeforeAnyWork) {
   EXPECT_THAT(said("--over rod.length=1 --points p.csv"), HasSubstr("--over and --points are both given"));
   EXPECT_THAT(said("--points p.csv"), HasSubstr("the table 'p.csv' cannot be read"));
   EXPECT_THAT(said("--over rod.length=-1:-0.5:2 --over bob.mass=-1"), HasSubstr("expected"));
+  EXPECT_EQ(said("--over rod.length=1 --force -o s.toml"), "gamut: s.toml: cannot be written; it is the input\n");
+  EXPECT_EQ(said("--over rod.length=1 --force --report s.toml"), "gamut: s.toml: cannot be written; it is the input\n");
   EXPECT_EQ(folder_.count(), 1U);
 }
 
@@ -162,7 +164,7 @@ TEST_F(SweepCommand, IsInterruptedAndKilledAndEndsWithTheSameBits) {
       EXPECT_THAT(code, ::testing::AnyOf(0, 3, -SIGKILL));
       if (std::filesystem::exists(folder_.path("s.sweep.h5"))) {
         const SweepResults there = swept();
-        if (code == 0) EXPECT_EQ(there.count(PointState::open), 0U);
+        EXPECT_TRUE(code != 0 || there.count(PointState::open) == 0);
       }
       if (++number % 3 == 0) {
         EXPECT_EQ(gamut(std::string("sweep s.toml") + over).exitCode, 0);
