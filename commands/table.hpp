@@ -32,6 +32,7 @@ Action report(CLI::App& command);
 Action info(CLI::App& command);
 Action replay(CLI::App& command);
 Action sample(CLI::App& command);
+Action exportTables(CLI::App& command);
 Action tolerance(CLI::App& command);
 Action sweep(CLI::App& command);
 Action newStudy(CLI::App& command);
@@ -53,6 +54,7 @@ inline constexpr Command table[] = {
     {"info", "What a results file holds and where it comes from; or the tree of a robot", info},
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},
     {"sample", "Many samples of outputs without integrating, each with its proved error", sample},
+    {"export", "Results as tables (CSV), for spreadsheets and other programs", exportTables},
     {"schema", "What a study file may hold, as JSON Schema: for editors, which complete and check it", schema},
     {"completion", "What bash, zsh or fish complete this program's commands and options by", completion},
 };
