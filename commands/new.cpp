@@ -84,7 +84,7 @@ Action newStudy(CLI::App& command) {
       ->type_name("NAME");
   command
       .add_option("--robot,--urdf", arguments->robot,
-                  "Of the robot that this file (URDF or MJCF) describes, which the study will refer to")
+                  "Of the robot that this file (URDF, MJCF or SDFormat) describes, which the study will refer to")
       ->type_name("ROBOT.urdf|ROBOT.xml");
   command.add_flag("--force", arguments->force, "Overwrite an existing file");
   return [arguments] { return write(*arguments); };

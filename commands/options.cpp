@@ -46,8 +46,8 @@ void addResults(CLI::App& command, std::string& path) {
 }
 
 void addResultsOrRobot(CLI::App& command, std::string& path) {
-  addInput(command, path, "results", "Results file, or a robot's description (URDF or MJCF)",
-           "RESULTS.h5|ROBOT.urdf|ROBOT.xml");
+  addInput(command, path, "results", "Results file, or a robot's description (URDF, MJCF or SDFormat)",
+           "RESULTS.h5|ROBOT.urdf|ROBOT.xml|ROBOT.sdf");
 }
 
 CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {

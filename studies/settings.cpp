@@ -281,7 +281,7 @@ void describeMechanism(Settings& s, bool hasRobot, RobotChoices& robot) {
          "dependent"},
         R"({"enum": ["dependent", "multipliers"]})");
   s.own({"element"}, "elements");
-  s.own({"robot", "a robot's description (URDF or MJCF), from the study's folder"}, text);
+  s.own({"robot", "a robot's description (URDF, MJCF or SDFormat), from the study's folder"}, text);
   s.own({"urdf", "the same; the older word"}, text);
   if (!hasRobot) return;
   s.choice({"base", "of the robot: whether its root moves freely", "fixed"}, {"fixed", "free"},

@@ -128,7 +128,7 @@ class MjcfReader {
     else if (word == "option")
       readOption(section);
     else if (word == "default")
-      readDefaults(section, "main", {});
+      readMainDefaults(section);
     else if (isOneOf(word, {"actuator", "tendon", "contact"}))
       leaveOut(driving_, section);
     else if (isOneOf(word, {"asset", "visual", "statistic", "size", "custom", "sensor", "keyframe"}))
@@ -221,12 +221,17 @@ class MjcfReader {
 
   using Class = std::map<std::string, std::map<std::string, MjcfAttributes::Value>>;  ///< attributes by elements
 
-  /// Of a class, and of those within it, which begin with what it states.
-  void readDefaults(const MjcfNode& node, const std::string& otherwise, const Class& outer) {
+  /// What holds of all that state no class, whatever its name.
+  void readMainDefaults(const MjcfNode& node) {
     MjcfAttributes own(node);
     own.takeAll(node);
     lookAt(own, {"class"});
-    const std::string name = own.text("class", otherwise);
+    readDefaults(node, "main", classes_["main"]);
+    classes_[own.text("class", "main")] = classes_["main"];
+  }
+
+  /// Of a class, and of those within it, which begin with what it states.
+  void readDefaults(const MjcfNode& node, const std::string& name, const Class& outer) {
     if (name.empty()) fail(node, "<default> within another has no 'class'", "the name of the class");
     const bool isNew = !classes_.contains(name);
     Class& mine = classes_[name];
@@ -240,11 +245,16 @@ class MjcfReader {
     }
     const Class stated = mine;
     for (const MjcfNode& child : children)
-      if (child.word() == "default") readDefaults(child, "", stated);
+      if (child.word() == "default") {
+        MjcfAttributes inner(child);
+        inner.takeAll(child);
+        lookAt(inner, {"class"});
+        readDefaults(child, inner.text("class", ""), stated);
+      }
   }
 
   /// Its own and those of its class.
-  MjcfAttributes attributesOf(const MjcfNode& node, const std::string& childClass) {
+  MjcfAttributes attributesOf(const MjcfNode& node, const std::string& childClass, const std::string& kind) {
     MjcfAttributes own(node), all(node);
     own.takeAll(node);
     const std::string name = own.text("class", childClass);
@@ -255,8 +265,7 @@ class MjcfReader {
       own.fail("class", fmt::format("there is no default class {}", inQuotes(name)), expectedName(name, known));
     }
     if (found != classes_.end())
-      if (const auto element = found->second.find(std::string(node.word())); element != found->second.end())
-        all.takeAll(element->second);
+      if (const auto element = found->second.find(kind); element != found->second.end()) all.takeAll(element->second);
     all.takeAll(node);
     return all;
   }
@@ -402,7 +411,7 @@ class MjcfReader {
     if (isFree)
       attributes.takeAll(node);
     else
-      attributes = attributesOf(node, inside.childClass);
+      attributes = attributesOf(node, inside.childClass, "joint");
     lookAt(attributes, {"name",
                         "class",
                         "type",
@@ -548,7 +557,7 @@ class MjcfReader {
 
   /// A solid is added to `composed`, a shape to the link, each if it is asked for.
   void readGeom(const MjcfNode& node, const Place& where, Composed* composed, Robot::Link& link) {
-    const MjcfAttributes attributes = attributesOf(node, where.childClass);
+    const MjcfAttributes attributes = attributesOf(node, where.childClass, "geom");
     lookAt(attributes, {"name",   "class",    "type",        "pos",       "quat",     "axisangle", "xyaxes",
                         "zaxis",  "euler",    "fromto",      "size",      "mass",     "density",   "shellinertia",
                         "group",  "contype",  "conaffinity", "condim",    "priority", "friction",  "solmix",
@@ -606,7 +615,7 @@ class MjcfReader {
   /// Joints that follow others linearly; what else is held together is a matter of the study.
   void readEqualities(const MjcfNode& section) {
     for (const MjcfNode& node : childrenOf(section)) {
-      const MjcfAttributes a = attributesOf(node, "main");
+      const MjcfAttributes a = attributesOf(node, "main", "equality");
       if (node.word() != "joint" || a.text("active", "true") == "false" || !isCoupled_) {
         leaveOut(equalities_, node);
         continue;

@@ -1,6 +1,7 @@
-// A Robot is what a file says of a machine, a URDF (https://wiki.ros.org/urdf/XML) or an MJCF file
-// (https://mujoco.readthedocs.io/en/stable/XMLreference.html): links with their inertia, joints between them as a tree,
-// numbers as enclosures of the decimals that stand there. Whatever is wrong in the file is said with file and line.
+// A Robot is what a file says of a machine, in URDF (https://wiki.ros.org/urdf/XML), MJCF
+// (https://mujoco.readthedocs.io/en/stable/XMLreference.html) or SDFormat (http://sdformat.org/spec): links with their
+// inertia, joints between them as a tree, numbers as enclosures of the decimals that stand there. Whatever is wrong in
+// the file is said with file and line.
 #pragma once
 
 #include <array>
@@ -36,6 +37,7 @@ struct Robot {
     Place place;
     bool isBack = false;
     bool isShared = false;  ///< others have the same numbers
+    bool turnsOnly = false;
   };
   struct Inertial {
     Place place;                                                       ///< of the centre of mass, in the link
@@ -114,8 +116,8 @@ const Described& elementOf(Robot::Type type);
 /// file itself by the empty one. Throws StudyError, for files that no robot description is as large as, too.
 std::string textOfRobot(const std::string& path);
 
-/// Of such a text: URDF or MJCF, as its outermost element says. Throws StudyError. `name` is what messages call the
-/// file. The shapes by which it touches are taken if they are asked for.
+/// Of such a text: URDF, MJCF or SDFormat, as its outermost element says. Throws StudyError. `name` is what messages
+/// call the file. The shapes by which it touches are taken if they are asked for.
 Robot readRobotText(const std::string& text, const std::string& name, bool takesShapes = false);
 
 }  // namespace gamut

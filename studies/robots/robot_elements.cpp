@@ -110,8 +110,13 @@ class RobotElements {
     ExpressionVector place = vector(step.name, step.place.xyz);
     std::vector<FixedRotation> turns = rotation(step.name, step.place);
     isDeclared_ = false;
+    if (step.turnsOnly) place = {0.0, 0.0, 0.0};
     if (!step.isBack) {
       add(Link{name, from, step.frame, std::move(place), std::move(turns)}, joint);
+      return;
+    }
+    if (step.turnsOnly) {
+      add(Link{name, from, step.frame, std::move(place), backwards(std::move(turns))}, joint);
       return;
     }
     const std::string turned = turns.empty() ? from : step.frame + ".turned";

@@ -14,7 +14,7 @@ namespace gamut {
 namespace {
 
 constexpr std::uintmax_t mostBytes = 4'000'000;  // meshes lie in files of their own
-constexpr const char* aDescription = "a robot's description (URDF or MJCF)";
+constexpr const char* aDescription = "a robot's description (URDF, MJCF or SDFormat)";
 
 std::string textOfFile(const std::string& path) {
   if (const std::string fault = whyUnreadable(path); !fault.empty()) throw StudyError(path, fault, aDescription);
@@ -99,8 +99,9 @@ Robot readRobotText(const std::string& text, const std::string& name, bool takes
   const std::string_view word = root.Name();
   if (word == "robot") return readUrdf(source, takesShapes);
   if (word == "mujoco") return readMjcf(source, texts, takesShapes);
+  if (word == "sdf") return readSdf(source, takesShapes);
   source.fail(root.GetLineNum(), fmt::format("the outermost element is <{}>", shortened(word)),
-              "<robot> (URDF) or <mujoco> (MJCF)");
+              "<robot> (URDF), <mujoco> (MJCF) or <sdf> (SDFormat)");
 }
 
 }  // namespace gamut

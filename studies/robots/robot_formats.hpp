@@ -9,6 +9,7 @@ namespace gamut {
 
 /// Throw StudyError. The shapes by which links touch are taken if they are asked for.
 Robot readUrdf(const XmlSource& source, bool takesShapes);
+Robot readSdf(const XmlSource& source, bool takesShapes);
 /// `included`: texts of the files that it includes, by the names by which it does.
 Robot readMjcf(const XmlSource& source, const NamedTexts& included, bool takesShapes);
 

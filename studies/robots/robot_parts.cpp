@@ -64,6 +64,50 @@ void checkMimics(const Robot& robot) {
   }
 }
 
+void sortOutwards(Robot& robot) {
+  std::map<std::string, std::vector<const Robot::Joint*>> carried;  // by link
+  std::map<std::string, const Robot::Joint*> carrying;
+  for (const Robot::Joint& joint : robot.joints) {
+    carried[joint.parent].push_back(&joint);
+    carrying[joint.child] = &joint;
+  }
+  const Robot::Link* root = nullptr;
+  for (const Robot::Link& link : robot.links) {
+    if (carrying.contains(link.name)) continue;
+    if (root != nullptr)
+      refuse(robot, link.file, link.line,
+             fmt::format("{} has no parent, and {} of line {} has none either", inQuotes(link.name),
+                         inQuotes(root->name), root->line),
+             "one root");
+    root = &link;
+  }
+  std::vector<Robot::Link> links;
+  std::vector<Robot::Joint> joints;
+  if (root != nullptr) links.push_back(*root);
+  std::vector<std::pair<const Robot::Joint*, int>> open;  // with their depths
+  const auto lookBehind = [&](const std::string& link, int depth) {
+    const auto& next = carried[link];
+    for (auto joint = next.rbegin(); joint != next.rend(); ++joint) open.emplace_back(*joint, depth);
+  };
+  if (root != nullptr) lookBehind(root->name, 0);
+  while (!open.empty()) {
+    const auto [joint, depth] = open.back();
+    open.pop_back();
+    joints.push_back(*joint);
+    joints.back().depth = depth;
+    links.push_back(*findNamed(robot.links, joint->child));
+    lookBehind(joint->child, depth + 1);
+  }
+  for (const Robot::Joint& joint : robot.joints)
+    if (findNamed(joints, joint.name) == joints.end())
+      refuse(robot, joint.file, joint.line,
+             fmt::format("the links {} and {} carry one another in a circle, with joints such as {}",
+                         inQuotes(joint.parent), inQuotes(joint.child), inQuotes(joint.name)),
+             "a tree (a `closure` in the study closes loops)");
+  robot.links = std::move(links);
+  robot.joints = std::move(joints);
+}
+
 void LeftOut::add(const std::string& word, int line, const XmlSource* source) {
   if (counts_.empty()) {
     first_ = line;

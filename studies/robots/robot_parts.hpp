@@ -28,6 +28,10 @@ Axis directionOf(const std::vector<std::string>& decimals);
 /// Throws StudyError unless each follows a joint with one coordinate, and none itself in the end.
 void checkMimics(const Robot& robot);
 
+/// Links and joints from the root outwards, branch by branch, in the file's order, with their depths. Throws StudyError
+/// unless they are one tree.
+void sortOutwards(Robot& robot);
+
 /// What a file holds beyond what is read, by name, with the line of the first.
 class LeftOut {
  public:

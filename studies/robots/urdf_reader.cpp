@@ -37,7 +37,7 @@ class UrdfReader {
       readJoint(*e);
     if (robot_.links.empty()) source_.fail(root.GetLineNum(), "<robot> has no <link>", "one at least");
     checkMimics(robot_);
-    sortOutwards();
+    sortOutwards(robot_);
     say();
     return std::move(robot_);
   }
@@ -249,51 +249,6 @@ class UrdfReader {
     lookAt(element, {"joint", "multiplier", "offset"}, {});
     return {source_.requiredName(element, "joint", "the joint that is followed"),
             source_.number(element, "multiplier", 1.0), source_.number(element, "offset", 0.0), element.GetLineNum()};
-  }
-
-  /// Links and joints from the root outwards, branch by branch, in the file's order.
-  void sortOutwards() {
-    std::map<std::string, std::vector<const Robot::Joint*>> carried;  // by link
-    std::map<std::string, const Robot::Joint*> carrying;
-    for (const Robot::Joint& joint : robot_.joints) {
-      carried[joint.parent].push_back(&joint);
-      carrying[joint.child] = &joint;
-    }
-    const Robot::Link* root = nullptr;
-    for (const Robot::Link& link : robot_.links) {
-      if (carrying.contains(link.name)) continue;
-      if (root != nullptr)
-        source_.fail(link.line,
-                     fmt::format("{} has no parent, and {} of line {} has none either", inQuotes(link.name),
-                                 inQuotes(root->name), root->line),
-                     "one root");
-      root = &link;
-    }
-    std::vector<Robot::Link> links;
-    std::vector<Robot::Joint> joints;
-    if (root != nullptr) links.push_back(*root);
-    std::vector<std::pair<const Robot::Joint*, int>> open;  // with their depths
-    const auto lookBehind = [&](const std::string& link, int depth) {
-      const auto& next = carried[link];
-      for (auto joint = next.rbegin(); joint != next.rend(); ++joint) open.emplace_back(*joint, depth);
-    };
-    if (root != nullptr) lookBehind(root->name, 0);
-    while (!open.empty()) {
-      const auto [joint, depth] = open.back();
-      open.pop_back();
-      joints.push_back(*joint);
-      joints.back().depth = depth;
-      links.push_back(*findNamed(robot_.links, joint->child));
-      lookBehind(joint->child, depth + 1);
-    }
-    for (const Robot::Joint& joint : robot_.joints)
-      if (findNamed(joints, joint.name) == joints.end())
-        source_.fail(joint.line,
-                     fmt::format("the links {} and {} carry one another in a circle, with joints such as {}",
-                                 inQuotes(joint.parent), inQuotes(joint.child), inQuotes(joint.name)),
-                     "a tree (a `closure` in the study closes loops)");
-    robot_.links = std::move(links);
-    robot_.joints = std::move(joints);
   }
 
   const XmlSource& source_;

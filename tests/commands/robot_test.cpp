@@ -75,7 +75,7 @@ TEST_F(RobotCommands, NewSaysWhatKeepsAStudyFromRunning) {
   EXPECT_THAT(written.error, HasSubstr("note: this study does not run as it is: r.toml:"));
   EXPECT_THAT(written.error, HasSubstr("the joint 'j' moves no mass"));
   expectRefused("new r.urdf --urdf none.urdf",
-                "none.urdf: does not exist; expected a robot's description (URDF or MJCF)");
+                "none.urdf: does not exist; expected a robot's description (URDF, MJCF or SDFormat)");
 }
 
 TEST_F(RobotCommands, RefuseWhatIsNoRobotInOneLine) {
@@ -85,7 +85,7 @@ TEST_F(RobotCommands, RefuseWhatIsNoRobotInOneLine) {
   EXPECT_FALSE(folder_.has("r.toml"));
   folder_.write("empty.urdf", "");
   expectRefused("info empty.urdf", "empty.urdf:1: not valid XML: there is nothing in it");
-  expectRefused("info none.urdf", "none.urdf: does not exist; expected a robot's description (URDF or MJCF)");
+  expectRefused("info none.urdf", "none.urdf: does not exist; expected a robot's description (URDF, MJCF or SDFormat)");
   folder_.write("s.toml", "[mechanism]\nurdf = \"bad.urdf\"\n");
   expectRefused("quantities s.toml", "bad.urdf:3: 'b' has no parent");
 }
@@ -96,7 +96,7 @@ TEST_F(RobotCommands, LookAtALargeFileWithinLittleMemory) {
   const Outcome info = gamut("info large.urdf", limited);
   EXPECT_EQ(info.exitCode, 2) << info.error;
   EXPECT_EQ(info.error,
-            "large.urdf: has more than 4 MB; expected a robot's description (URDF or MJCF) without meshes\n");
+            "large.urdf: has more than 4 MB; expected a robot's description (URDF, MJCF or SDFormat) without meshes\n");
   // As many elements as such a file can hold.
   std::string many = "<robot name=\"r\"><link name=\"a\"/>";
   while (many.size() < 3'990'000) many += "<b/>";

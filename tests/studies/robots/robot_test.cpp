@@ -400,8 +400,9 @@ TEST(RobotStudy, SaysWhatIsWrongInOneLine) {
     }
     return "it was read";
   };
-  EXPECT_THAT(complaint("[mechanism]\nurdf = \"none.urdf\""),
-              StartsWith("s.toml:2:8: none.urdf: does not exist; expected a robot's description (URDF or MJCF)"));
+  EXPECT_THAT(
+      complaint("[mechanism]\nurdf = \"none.urdf\""),
+      StartsWith("s.toml:2:8: none.urdf: does not exist; expected a robot's description (URDF, MJCF or SDFormat)"));
   EXPECT_THAT(complaint("[mechanism]\nbase = \"fixed\""), StartsWith("s.toml:2:1: unknown key 'base'"));
 }
 
@@ -431,7 +432,7 @@ TEST(HostileRobot, IsRefusedInOneLine) {
   expect("this is no XML", "1: ");
   expect("<robot>", "1: not valid XML: ");
   expect("<robot/>", "1: <robot> has no <link>; expected one at least");
-  expect("<sdf version=\"1.6\"/>", "1: the outermost element is <sdf>; expected <robot> (URDF) or <mujoco> (MJCF)");
+  expect("<svg/>", "1: the outermost element is <svg>; expected <robot> (URDF), <mujoco> (MJCF) or <sdf> (SDFormat)");
   expect(std::string("<robot>\0</robot>", 16), "1: is no text in UTF-8; expected XML");
   expect("<robot><link name=\"\xC3(\"/></robot>", "1: is no text in UTF-8");
   expect("<robot><link/></robot>", "1: <link> has no 'name'; expected the name of the link");
@@ -492,8 +493,9 @@ TEST(HostileRobot, CostsLittle) {
     textOfRobot(path);
     ADD_FAILURE();
   } catch (const StudyError& error) {
-    EXPECT_THAT(error.what(),
-                HasSubstr("has more than 4 MB; expected a robot's description (URDF or MJCF) without meshes"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("has more than 4 MB; expected a robot's description (URDF, MJCF or SDFormat) without meshes"));
   }
 }
 
