@@ -153,14 +153,17 @@ std::optional<NearRest> NearRest::reduced() const {
 RestStability stabilityOf(const NearRest& reduced, int negatives) {
   using enum RestStability;
   const int n = reduced.n;
+  const RestStability byStiffness = negatives == 0 ? stable : unstable;
+  if (std::ranges::all_of(reduced.damping, isZero)) return byStiffness;
   for (const auto* matrix : {&reduced.stiffness, &reduced.damping, &reduced.mass})
     if (!areBounded(*matrix)) return unknown;
-  const RestStability byStiffness = negatives == 0 ? stable : unstable;
   const Intervals c = matrixOf(reduced.damping, n, n);
-  if (std::ranges::all_of(reduced.damping, isZero)) return byStiffness;
   if (isPositive(Interval(0.5) * (c + c.transpose()), negatives > 0)) return byStiffness;
   if (negatives % 2 == 1) return unstable;
-  return byLyapunov(FirstOrder(matrixOf(reduced.stiffness, n, n), c, matrixOf(reduced.mass, n, n)));
+  const Intervals mass = matrixOf(reduced.mass, n, n);
+  const Verified<Intervals> decays = verifiedSolve(mass, c);
+  if (decays && decays->trace().upper() < 0) return unstable;
+  return byLyapunov(FirstOrder(matrixOf(reduced.stiffness, n, n), c, mass));
 }
 
 std::optional<int> negativeEigenvalues(const std::vector<Interval>& k, int n) {

@@ -35,6 +35,7 @@ enum class RestStability { unstable = -1, unknown = 0, stable = 1 };
 ///
 ///   D ≥ 0 and none: stable;   D > 0 and some: unstable (N. G. Chetaev, The Stability of Motion, 1961);
 ///   an odd number: unstable, for det(s² M + s C + K) changes its sign at an s > 0;
+///   tr M⁻¹ C < 0: unstable, for all real parts together are −tr M⁻¹ C;
 ///   else with X = Xᵀ for which Pᵀ X Q + Qᵀ X P < 0, P ẏ = Q y the motion of y = [q; q̇]: as many eigenvalues have real
 ///   parts above 0 as X has below (A. Ostrowski & H. Schneider, J. Math. Anal. Appl. 4, 1962), and none is on the axis.
 RestStability stabilityOf(const NearRest& reduced, int negatives);

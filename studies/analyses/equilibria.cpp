@@ -73,9 +73,11 @@ std::optional<NearRest> nearRest(const RestEquations& equations, const Box& root
       .reduced();
 }
 
-/// The root of some of a part's parameters.
-Box rootAt(const RestEquations& equations, const RootPart& part, const Box& parameters) {
-  const AllRoots there = allRoots(equations.roots, part.root, parameters);
+/// The root of some of a part's parameters, if that is found soon; else that of all.
+Box rootAt(const RestEquations& equations, const RootPart& part, const Box& parameters, std::size_t cells = 1000) {
+  RootSearch search;
+  search.mostCells = cells;
+  const AllRoots there = allRoots(equations.roots, part.root, parameters, search);
   return there.families.size() == 1 ? there.families.front().root : part.root;
 }
 
@@ -92,7 +94,7 @@ std::optional<int> negativesOf(const RestEquations& equations, const RootPart& p
     if (const auto near = nearRest(equations, rootAt(equations, part, values), values);
         near && !near->mayHavePotential())
       return {};
-  const std::optional<NearRest> near = nearRest(equations, rootAt(equations, part, middle), middle);
+  const std::optional<NearRest> near = nearRest(equations, rootAt(equations, part, middle, 200000), middle);
   return near ? negativeEigenvalues(near->stiffness, near->n) : std::nullopt;
 }
 

@@ -42,7 +42,7 @@ class NumberSettings final : public Settings {
     prefix_ = outer;
   }
   void own(const Key& key, const char* schema) override {
-    if (std::string_view(schema) == R"({"type": ["number", "string"]})") add(key, {});
+    if (std::string_view(schema).starts_with(R"({"type": ["number", "string"])")) add(key, {});
   }
 
   const Found* find(const std::string& name) const {

@@ -623,7 +623,9 @@ TEST(StudyReader, RefusesKeysOfManyPartsBeforeTheyExhaustTheStack) {
   EXPECT_EQ(messageOf("[" + repeated("a . ", 40000) + "a]\n"), "s.toml:1:64" + expected);
   EXPECT_EQ(messageOf(repeated("\"a\".", 40000) + "a = 1\n"), "s.toml:1:64" + expected);
   EXPECT_EQ(messageOf("[study]\nx = { " + repeated("a.", 17) + "a = 1 }\n"), "s.toml:2:38" + expected);
-  EXPECT_THAT(messageOf(repeated("{ a.a.a.a.a.a.a.a = ", 40000)), HasSubstr("not valid TOML"));
+  EXPECT_THAT(messageOf("x = " + repeated("{ a.a.a.a.a.a.a.a = ", 40000)), HasSubstr("not valid TOML"));
+  EXPECT_THAT(messageOf(repeated("{ a.a.a.a.a.a.a.a = ", 40000)), HasSubstr("not valid JSON"));
+  EXPECT_THAT(messageOf(repeated("{ \"a\": ", 100000)), HasSubstr("s.toml:1:"));
   EXPECT_THAT(messageOf("x = " + repeated("[", 100000)), HasSubstr("not valid TOML"));
 }
 
@@ -909,7 +911,8 @@ constexpr BadStudy badStudies[] = {
     {"[uncertain]]\nname", "[uncertan]]\nname",
      "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, dependence, "
      "output, "
-     "requirement, interval, stochastic, distribution, sensitivity, equilibria, postures, witness, workspace, fuzzy, "
+     "requirement, sweep, interval, stochastic, distribution, sensitivity, equilibria, postures, witness, workspace, "
+     "fuzzy, "
      "limits)"},
     {"\"hinge.angle\"\ninterval", "\"hinges.*\"\ninterval",
      "s.toml:30:12: no quantity fits 'hinges.*'; expected a pattern that `gamut quantities` shows a quantity of"},
