@@ -71,9 +71,10 @@ RestEquations restEquations(const Mechanism& mechanism, const std::vector<std::s
     y[size] = length - Recorded(1.0);
   });
   equations.nearRest =
-      record(unknowns, parameters, (3 * n + loops) * n, [&](auto, const auto& x, const auto& p, auto& y) {
+      record(unknowns + n, parameters, (3 * n + loops) * n, [&](auto, const auto& x, const auto& p, auto& y) {
         std::vector<Recorded> v(x.begin(), x.begin() + n);
         for (int j = 0; j < loops; ++j) v.push_back(unit * x[n + 1 + j] / x[n]);
+        v.insert(v.end(), x.begin() + unknowns, x.begin() + unknowns + n);
         v.resize(3 * size, Recorded(0.0));
         const std::vector<Recorded> all = evaluate<Recorded>(of.linear, v, {p.begin(), p.end()});
         const auto slope = [&](int i, int j) { return all[size + i * 3 * size + j]; };

@@ -123,10 +123,31 @@ NearRest NearRest::of(int coordinates, const std::vector<Interval>& matrices) {
           {begin + 3 * square, matrices.end()}};
 }
 
-bool NearRest::mayHavePotential() const {
+double NearRest::sizeOfStiffness(int i, int j) const {
+  const auto size = [this](int row, int column) { return magnitude(stiffness[row * n + column]); };
+  return std::max({size(i, j), size(j, i), std::sqrt(size(i, i) * size(j, j))});
+}
+
+bool NearRest::hasPotential() const {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < i; ++j)
-      if (isDisjoint(stiffness[i * n + j], stiffness[j * n + i])) return false;
+      if (!(magnitude(stiffness[i * n + j] - stiffness[j * n + i]) <= rounding * sizeOfStiffness(i, j))) return false;
+  return true;
+}
+
+bool NearRest::isSmooth(const NearRest& about) const {
+  constexpr double least = 1e-60;
+  const auto isNear = [](const Interval& one, const Interval& other, double size) {
+    const double off = rounding * size + least;
+    return isSubset(other, one + Interval(-off, off));
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Interval& c = damping[i * n + j];
+      if (!isNear(c, about.damping[i * n + j], magnitude(c)) ||
+          !isNear(stiffness[i * n + j], about.stiffness[i * n + j], sizeOfStiffness(i, j)))
+        return false;
+    }
   return true;
 }
 

@@ -12,13 +12,20 @@ namespace gamut {
 /// What moves near rest: M q̈ + C q̇ + K q = 0, of coordinates that loops hold by G q = 0; for all of the intervals'
 /// values, row by row.
 struct NearRest {
+  static constexpr double rounding = 1e-7;  ///< what is more, of what there is, is no rounding
+
   int n = 0;  ///< coordinates
   std::vector<Interval> stiffness, damping, mass, held;
 
   /// K, C, M and G one after the other (RestEquations::nearRest).
   static NearRest of(int coordinates, const std::vector<Interval>& matrices);
-  /// Whether K may be symmetric, as that of forces with a potential.
-  bool mayHavePotential() const;
+  /// Whether K, at one value, is symmetric to what is left of it by rounding, as that of forces with a potential.
+  bool hasPotential() const;
+  /// Whether K and C are, to rounding, those of what lies and moves `about` there by next to nothing: no force has a
+  /// kink.
+  bool isSmooth(const NearRest& about) const;
+  /// Of what K's entries i, j and j, i are sums of, about.
+  double sizeOfStiffness(int i, int j) const;
   /// The motion along the loops: of G q = 0 so many coordinates as G has rows are solved for. Nothing where they cannot
   /// be for all values.
   std::optional<NearRest> reduced() const;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <utility>
@@ -67,35 +68,60 @@ std::optional<std::array<Box, 2>> halvesOf(const Box& box) {
   return halves;
 }
 
-/// Near a root of the equations, along the loops.
+/// Near a root of the equations, along the loops; nothing where forces have kinks there.
 std::optional<NearRest> nearRest(const RestEquations& equations, const Box& root, const Box& parameters) {
-  return NearRest::of(equations.coordinates, evaluate<Interval>(equations.nearRest, root, parameters, Interval(0.0)))
-      .reduced();
+  const auto at = [&](const Interval& off) {
+    Box x = root;
+    for (int i = 0; i < equations.coordinates; ++i) x[i] += off;
+    x.insert(x.end(), equations.coordinates, off);
+    return NearRest::of(equations.coordinates, evaluate<Interval>(equations.nearRest, x, parameters, Interval(0.0)));
+  };
+  constexpr double aboutZero = 1e-100;
+  const NearRest near = at(Interval(0.0));
+  return near.isSmooth(at(Interval(-aboutZero, aboutZero))) ? near.reduced() : std::nullopt;
 }
 
-/// The root of some of a part's parameters, if that is found soon; else that of all.
-Box rootAt(const RestEquations& equations, const RootPart& part, const Box& parameters, std::size_t cells = 1000) {
+/// The root of some of a part's parameters, if that is found soon.
+std::optional<Box> rootAt(const RestEquations& equations, const RootPart& part, const Box& parameters,
+                          std::size_t cells = 1000) {
   RootSearch search;
   search.mostCells = cells;
   const AllRoots there = allRoots(equations.roots, part.root, parameters, search);
-  return there.families.size() == 1 ? there.families.front().root : part.root;
+  return there.families.size() == 1 ? std::optional(there.families.front().root) : std::nullopt;
+}
+
+/// Whether forces have a potential, as far as is seen at the ends of the parameters and at values between.
+bool haveForcesAPotential(const RestEquations& equations, const RootPart& part) {
+  constexpr int values = 18;
+  double share = 0.5;
+  for (int number = 0; number < values; ++number) {
+    Box parameters;
+    for (const Interval& each : part.parameters) {
+      share = std::fmod(share + 0.6180339887498949, 1);  // of the golden section: no two values go together
+      parameters.emplace_back(number == 0 ? each.lower()
+                              : number == 1
+                                  ? each.upper()
+                                  : std::clamp(each.lower() + share * width(each), each.lower(), each.upper()));
+    }
+    const std::optional<Box> root = rootAt(equations, part, parameters);
+    if (!root) continue;
+    const std::optional<NearRest> near = nearRest(equations, *root, parameters);
+    if (near && !near->hasPotential()) return false;
+    if (std::ranges::all_of(part.parameters, isThin)) break;
+  }
+  return true;
 }
 
 /// How many eigenvalues of K are negative at one value of the parameters, which is so at all: K is regular where a
-/// position is proved for them. Nothing where forces have no potential, at that value or at two others.
+/// position is proved for them. Nothing where forces have no potential.
 std::optional<int> negativesOf(const RestEquations& equations, const RootPart& part) {
-  Box middle, low, high;
-  for (const Interval& each : part.parameters) {
-    middle.emplace_back(midpoint(each));
-    low.emplace_back(each.lower());
-    high.emplace_back(each.upper());
-  }
-  for (const Box& values : {low, high})
-    if (const auto near = nearRest(equations, rootAt(equations, part, values), values);
-        near && !near->mayHavePotential())
-      return {};
-  const std::optional<NearRest> near = nearRest(equations, rootAt(equations, part, middle, 200000), middle);
-  return near ? negativeEigenvalues(near->stiffness, near->n) : std::nullopt;
+  Box middle;
+  for (const Interval& each : part.parameters) middle.emplace_back(midpoint(each));
+  const std::optional<Box> root = rootAt(equations, part, middle, 200000);
+  if (!root) return {};
+  const std::optional<NearRest> near = nearRest(equations, *root, middle);
+  if (!near || !near->hasPotential() || !haveForcesAPotential(equations, part)) return {};
+  return negativeEigenvalues(near->stiffness, near->n);
 }
 
 /// Of a position that is proved, for all parameters: their box is halved until it is known of each part, or too many
@@ -110,7 +136,8 @@ RestStability stabilityOf(const RestEquations& equations, const RootBranch& fami
     while (!open.empty()) {
       const Box parameters = std::move(open.back());
       open.pop_back();
-      const Box root = isWithin(part.parameters, parameters) ? part.root : rootAt(equations, part, parameters);
+      const Box root =
+          isWithin(part.parameters, parameters) ? part.root : rootAt(equations, part, parameters).value_or(part.root);
       const std::optional<NearRest> near = nearRest(equations, root, parameters);
       const RestStability its = near ? stabilityOf(*near, *negatives) : RestStability::unknown;
       if (its != RestStability::unknown) {

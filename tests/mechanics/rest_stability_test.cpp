@@ -144,8 +144,20 @@ TEST(RestStability, IsOfTheMotionAlongLoops) {
 }
 
 TEST(RestStability, IsNotAskedOfForcesWithoutAPotential) {
-  EXPECT_TRUE((Motion{1, {2, -1, -1, 2}, {0, 0, 0, 0}}.nearRest().mayHavePotential()));
-  EXPECT_FALSE((Motion{1, {2, -1, 1, 2}, {0, 0, 0, 0}}.nearRest().mayHavePotential()));
+  EXPECT_TRUE((Motion{1, {2, -1, -1, 2}, {0, 0, 0, 0}}.nearRest().hasPotential()));
+  EXPECT_FALSE((Motion{1, {2, -1, 1, 2}, {0, 0, 0, 0}}.nearRest().hasPotential()));
+  NearRest near = Motion{1, {2, 0, 0, 2}, {0, 0, 0, 0}}.nearRest();
+  near.stiffness[1] = Interval(-0.5, 0.5);  // a kink
+  EXPECT_FALSE(near.hasPotential());
+}
+
+TEST(RestStability, IsNotAskedWhereRatesHaveKinks) {
+  const NearRest near = Motion{1, {2, -1, -1, 2}, {0.1, 0, 0, 0.1}}.nearRest();
+  NearRest moving = near;
+  moving.damping[0] = Interval(0.1) + Interval(-1e-90, 1e-90);
+  EXPECT_TRUE(near.isSmooth(moving));
+  moving.damping[0] = Interval(-2.9, 3.1);
+  EXPECT_FALSE(near.isSmooth(moving));
 }
 
 }  // namespace

@@ -454,6 +454,9 @@ TEST(Equilibria, AreUnstableWhereResistancesGiveEnergy) {
             (Found{-1}));
   EXPECT_EQ(stabilityWith(element("joint-force", "d", "joint = \"A\"\nforce = \"-(0.1 N m s/rad)*A.rate\"")),
             (Found{1}));
+  EXPECT_EQ(stabilityWith(element("joint-force", "d",
+                                  "joint = \"A\"\nforce = \"(0.3 N m s/rad)*abs(A.rate) - (0.1 N m s/rad)*A.rate\"")),
+            (Found{0}));
   EXPECT_EQ(stabilityWith(damper("0.1"), uncertain("d.damping", "± 15 %")), (Found{1}));
   EXPECT_EQ(stabilityWith(damper("0.1"), "[[uncertain]]\nquantity = \"d.damping\"\ninterval = [\"-0.01\", \"0.2\"]\n"),
             (Found{0}));
