@@ -70,15 +70,17 @@ std::optional<std::array<Box, 2>> halvesOf(const Box& box) {
 
 /// Near a root of the equations, along the loops; nothing where forces have kinks there.
 std::optional<NearRest> nearRest(const RestEquations& equations, const Box& root, const Box& parameters) {
-  const auto at = [&](const Interval& off) {
+  const auto at = [&](const Interval& off) -> std::optional<NearRest> {
     Box x = root;
     for (int i = 0; i < equations.coordinates; ++i) x[i] += off;
     x.insert(x.end(), equations.coordinates, off);
-    return NearRest::of(equations.coordinates, evaluate<Interval>(equations.nearRest, x, parameters, Interval(0.0)));
+    const std::vector<Interval> all = evaluate<Interval>(equations.nearRest, x, parameters, Interval(0.0));
+    if (std::ranges::any_of(all, [](const Interval& each) { return isEmpty(each); })) return {};  // no derivative
+    return NearRest::of(equations.coordinates, all);
   };
   constexpr double aboutZero = 1e-100;
-  const NearRest near = at(Interval(0.0));
-  return near.isSmooth(at(Interval(-aboutZero, aboutZero))) ? near.reduced() : std::nullopt;
+  const std::optional<NearRest> near = at(Interval(0.0)), about = at(Interval(-aboutZero, aboutZero));
+  return near && about && near->isSmooth(*about) ? near->reduced() : std::nullopt;
 }
 
 /// The root of some of a part's parameters, if that is found soon.
@@ -249,12 +251,13 @@ class EquilibriaAnalysis final : public AnalysisOf<EquilibriaAnalysis, Equilibri
     });
     result.lower = result.upper = Grid({found.families.size(), coordinates});
     for (std::size_t k = 0; k < found.families.size(); ++k) {
+      const RestStability stability = stabilityOf(equations, found.families[k]);
       result.number.push_back(static_cast<double>(k + 1));
       for (std::size_t i = 0; i < coordinates; ++i) {
         result.lower(k, i) = found.families[k].root[i].lower();
         result.upper(k, i) = found.families[k].root[i].upper();
       }
-      result.stability.push_back(static_cast<std::int64_t>(stabilityOf(equations, found.families[k])));
+      result.stability.push_back(static_cast<std::int64_t>(stability));
     }
     if (result.isComplete) return;
     result.why =
