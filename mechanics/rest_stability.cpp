@@ -125,7 +125,7 @@ NearRest NearRest::of(int coordinates, const std::vector<Interval>& matrices) {
 
 double NearRest::sizeOfStiffness(int i, int j) const {
   const auto size = [this](int row, int column) { return magnitude(stiffness[row * n + column]); };
-  return std::max({size(i, j), size(j, i), std::sqrt(size(i, i) * size(j, j))});
+  return std::max({size(i, j), size(j, i), std::sqrt(size(i, i)) * std::sqrt(size(j, j))});
 }
 
 bool NearRest::hasPotential() const {

@@ -93,47 +93,45 @@ std::optional<Box> rootAt(const RestEquations& equations, const RootPart& part, 
 }
 
 /// Whether forces have a potential, as far as is seen at the ends of the parameters and at values between.
-bool haveForcesAPotential(const RestEquations& equations, const RootPart& part) {
-  constexpr int values = 18;
+bool haveForcesAPotential(const RestEquations& equations, const RootBranch& family) {
+  constexpr std::size_t values = 18;
   double share = 0.5;
-  for (int number = 0; number < values; ++number) {
+  for (std::size_t number = 0; number < values; ++number) {
+    const RootPart& part = family.parts[number * family.parts.size() / values];
     Box parameters;
     for (const Interval& each : part.parameters) {
       share = std::fmod(share + 0.6180339887498949, 1);  // of the golden section: no two values go together
-      parameters.emplace_back(number == 0 ? each.lower()
-                              : number == 1
-                                  ? each.upper()
-                                  : std::clamp(each.lower() + share * width(each), each.lower(), each.upper()));
+      const double between = std::clamp(each.lower() + share * width(each), each.lower(), each.upper());
+      parameters.emplace_back(number == 0 ? each.lower() : number + 1 == values ? each.upper() : between);
     }
     const std::optional<Box> root = rootAt(equations, part, parameters);
-    if (!root) continue;
-    const std::optional<NearRest> near = nearRest(equations, *root, parameters);
+    const std::optional<NearRest> near = root ? nearRest(equations, *root, parameters) : std::nullopt;
     if (near && !near->hasPotential()) return false;
-    if (std::ranges::all_of(part.parameters, isThin)) break;
   }
   return true;
 }
 
 /// How many eigenvalues of K are negative at one value of the parameters, which is so at all: K is regular where a
 /// position is proved for them. Nothing where forces have no potential.
-std::optional<int> negativesOf(const RestEquations& equations, const RootPart& part) {
+std::optional<int> negativesOf(const RestEquations& equations, const RootBranch& family) {
+  const RootPart& part = family.parts.front();
   Box middle;
   for (const Interval& each : part.parameters) middle.emplace_back(midpoint(each));
   const std::optional<Box> root = rootAt(equations, part, middle, 200000);
   if (!root) return {};
   const std::optional<NearRest> near = nearRest(equations, *root, middle);
-  if (!near || !near->hasPotential() || !haveForcesAPotential(equations, part)) return {};
+  if (!near || !near->hasPotential() || !haveForcesAPotential(equations, family)) return {};
   return negativeEigenvalues(near->stiffness, near->n);
 }
 
 /// Of a position that is proved, for all parameters: their box is halved until it is known of each part, or too many
 /// are tried.
 RestStability stabilityOf(const RestEquations& equations, const RootBranch& family) {
+  const std::optional<int> negatives = negativesOf(equations, family);
+  if (!negatives) return RestStability::unknown;
   std::set<RestStability> found;
   std::size_t tries = 64;
   for (const RootPart& part : family.parts) {
-    const std::optional<int> negatives = negativesOf(equations, part);
-    if (!negatives) return RestStability::unknown;
     std::vector<Box> open{part.parameters};
     while (!open.empty()) {
       const Box parameters = std::move(open.back());
