@@ -85,8 +85,11 @@ bool interruptible(const py::object& progress, const std::function<void(const Wo
         wasInterrupted = isInterrupted() || wasInterrupted;
         if (const auto& [task, fraction] = told.last(); !progress.is_none() && !task.empty() && !refused)
           progress(task, fraction);
-      } catch (const py::error_already_set&) {
-        refused = std::current_exception();
+      } catch (const py::error_already_set& error) {  // an interrupt may meet what is called, too
+        if (error.matches(PyExc_KeyboardInterrupt))
+          wasInterrupted = true;
+        else
+          refused = std::current_exception();
       }
       if (wasInterrupted || refused) cancelled = true;
     }

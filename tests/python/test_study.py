@@ -181,6 +181,17 @@ def test_progress_is_told_and_may_end_the_run():
     assert len(told) == 3 and all(task and 0 <= fraction <= 1 for task, fraction in told)
 
 
+def test_an_interrupt_keeps_what_was_found_wherever_it_comes():
+    study = gamut.Study(EXAMPLES / "double_pendulum/study.toml")
+
+    def note(task, fraction):
+        raise KeyboardInterrupt
+
+    with pytest.raises(gamut.Interrupted) as interrupt:
+        study.run(samples=1000000, progress=note)
+    assert interrupt.value.results.ended == "the run was interrupted"
+
+
 def test_an_interrupt_keeps_what_was_found(tmp_path):
     program = (
         "import gamut, sys\n"
