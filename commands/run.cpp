@@ -1,7 +1,6 @@
 // gamut run: the analyses of a study, its results file and its report. All that can be refused is refused before the
 // work; both files are ours from then on.
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -69,12 +68,7 @@ Action run(CLI::App& command) {
       ->type_name("RESULTS.h5");
   command.add_option("--report", arguments->report, "Report page; otherwise named like the results")
       ->type_name("REPORT.html");
-  command.add_option("--seed", arguments->seed, "Seed of the sampling plan, a whole number, instead of the study's")
-      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
-      ->type_name("N");
-  command.add_option("--samples", arguments->samples, "Number of samples, 1 to 10000000, instead of the study's")
-      ->check(wholeNumber(1, 10000000))
-      ->type_name("N");
+  addPlanOptions(command, arguments->seed, arguments->samples);
   addRunOptions(command, *arguments);
   command.footer(exitCodesText);
   return [arguments] { return run(*arguments); };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <new>
 #include <string>
 #include <thread>
@@ -101,6 +102,15 @@ void addRunOptions(CLI::App& command, RunArguments& arguments) {
   command.add_flag("--json", arguments.json, "One JSON object on standard output, all else on standard error");
   command.add_flag("--quiet", arguments.quiet, "Neither progress nor summary");
   command.add_flag("--force", arguments.force, "Overwrite existing files");
+}
+
+void addPlanOptions(CLI::App& command, std::optional<std::uint64_t>& seed, std::optional<std::size_t>& samples) {
+  command.add_option("--seed", seed, "Seed of the sampling plan, a whole number, instead of the study's")
+      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("N");
+  command.add_option("--samples", samples, "Number of samples, 1 to 10000000, instead of the study's")
+      ->check(wholeNumber(1, 10000000))
+      ->type_name("N");
 }
 
 RunOptions runOptions(const RunArguments& arguments) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "commands/exit_codes.hpp"
@@ -19,6 +21,8 @@ struct RunArguments {
 };
 
 void addRunOptions(CLI::App& command, RunArguments& arguments);
+/// What of the sampling plan is instead of the study's.
+void addPlanOptions(CLI::App& command, std::optional<std::uint64_t>& seed, std::optional<std::size_t>& samples);
 
 /// With interrupts noted, without seed, samples and progress.
 RunOptions runOptions(const RunArguments& arguments);

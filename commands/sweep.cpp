@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -245,12 +244,7 @@ Action sweep(CLI::App& command) {
       ->type_name("SWEEP.h5");
   command.add_option("--report", arguments->report, "Report page; otherwise named like the results")
       ->type_name("REPORT.html");
-  command.add_option("--seed", arguments->seed, "Seed of the sampling plan, a whole number, instead of the study's")
-      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
-      ->type_name("N");
-  command.add_option("--samples", arguments->samples, "Number of samples, 1 to 10000000, instead of the study's")
-      ->check(wholeNumber(1, 10000000))
-      ->type_name("N");
+  addPlanOptions(command, arguments->seed, arguments->samples);
   addRunOptions(command, *arguments);
   command.footer(
       "Each point is a run of its own: limits are of each, as many run at a time as there are jobs. A sweep that was\n"

@@ -177,16 +177,15 @@ class Samples(NamedTuple):
     """Likewise, proved."""
 
 
-class Results:
-    """What a run found. `results["tip height"]` is an output; `results.to_xarray()` is all of it."""
+class Described:
+    """What describes itself as its file does."""
 
-    def __init__(self, held, name="results"):
-        self._held, self._name = held, name
-        self._fields = None
+    def __init__(self, held):
+        self._held, self._fields = held, None
 
     @property
     def fields(self):
-        """Every Field of the results file (docs/results-file.md), by its path; bounds are one field."""
+        """Every Field of the file (docs/results-file.md, docs/sweeps.md), by its path; bounds are one field."""
         if self._fields is None:
             self._fields = {f[0]: Field(f[0], f[1], f[2], tuple(f[3]), f[4]) for f in self._held.fields()}
         return self._fields
@@ -195,6 +194,14 @@ class Results:
         """The value of a field; None if it is not there."""
         field = self.fields.get(path)
         return None if field is None else field.value
+
+
+class Results(Described):
+    """What a run found. `results["tip height"]` is an output; `results.to_xarray()` is all of it."""
+
+    def __init__(self, held, name="results"):
+        super().__init__(held)
+        self._name = name
 
     def _text_of(self, path):
         return list(self.value(path) or [])

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from . import _gamut
-from .results import Field, _framed
+from .results import Described, _framed
 
 
 def _texts(values):
@@ -25,24 +25,9 @@ def _stated(over, points):
     ]
 
 
-class Sweep:
+class Sweep(Described):
     """What `Study.sweep` found. `sweep["clearance"]` has the arrays of a requirement, or of an output, by their names;
     `sweep.to_xarray()` is all of it."""
-
-    def __init__(self, held):
-        self._held, self._fields = held, None
-
-    @property
-    def fields(self):
-        """Every Field of the file (docs/sweeps.md), by its path."""
-        if self._fields is None:
-            self._fields = {f[0]: Field(f[0], f[1], f[2], tuple(f[3]), f[4]) for f in self._held.fields()}
-        return self._fields
-
-    def value(self, path):
-        """The value of a field; None if it is not there."""
-        field = self.fields.get(path)
-        return None if field is None else field.value
 
     @property
     def title(self):
