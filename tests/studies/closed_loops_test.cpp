@@ -106,7 +106,7 @@ TEST(ClosedLoopStudy, IsThinAtTheEndOfAnArm) {
        {std::pair<int, std::vector<std::string>>{3, {"z"}}, {5, {"z"}}, {10, {"z"}}, {6, {"z", "x"}}}) {
     const Results results = run(machineOf(onAnArm(links, axes)), {});
     EXPECT_EQ(results.interval.reached, 1) << links << " " << results.interval.why;
-    EXPECT_LE(results.interval.at.upper(1, 0) - results.interval.at.lower(1, 0), links < 10 ? 1e-7 : 1e-5) << links;
+    EXPECT_LE(results.interval.at.upper(1, 0) - results.interval.at.lower(1, 0), links < 10 ? 1e-8 : 1e-6) << links;
     EXPECT_EQ(results.comparison.verdict, Agreement::inside) << links;
   }
 }
