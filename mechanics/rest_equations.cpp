@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "mechanics/assembly.hpp"
@@ -43,6 +44,35 @@ double unitOfMultipliers(const Mechanism& mechanism, const std::vector<std::stri
   return isKnown ? std::exp2(std::round(std::log2(load / lever))) : 1.0;
 }
 
+/// v, v̇, v̈ of what `roots` takes, and of q̇ behind that.
+std::vector<Recorded> motionOf(const RestRows& of, int unknowns, std::span<const Recorded> x, double unit) {
+  const int n = of.coordinates;
+  std::vector<Recorded> v(x.begin(), x.begin() + n);
+  for (int j = 0; j < of.loops; ++j) v.push_back(unit * x[n + 1 + j] / x[n]);
+  v.insert(v.end(), x.begin() + unknowns, x.begin() + unknowns + n);
+  v.resize(3 * of.size, Recorded(0.0));
+  return v;
+}
+
+/// c_k, masses, and −∂f/∂q̇ without c_k.
+void takeResistances(const RestRows& of, const RestParts& parts, double unit, RestEquations& equations) {
+  const int n = of.coordinates, size = of.size, unknowns = equations.roots.states();
+  equations.resistances = parts.resistances.outputs();
+  equations.masses = parts.masses.outputs();
+  equations.resisting = record(unknowns + n, of.parameters, equations.resistances + equations.masses + n * n,
+                               [&](auto, const auto& x, const auto& p, auto& y) {
+                                 const std::vector<Recorded> values(p.begin(), p.end()),
+                                     v = motionOf(of, unknowns, x, unit);
+                                 std::vector<Recorded> found;
+                                 for (const Program* each : {&parts.resistances, &parts.masses})
+                                   std::ranges::move(evaluate<Recorded>(*each, v, values), std::back_inserter(found));
+                                 const std::vector<Recorded> linear = evaluate<Recorded>(parts.linear, v, values);
+                                 for (int i = 0; i < n; ++i)
+                                   for (int j = 0; j < n; ++j) found.push_back(-linear[size + i * 3 * size + size + j]);
+                                 std::ranges::copy(found, y.begin());
+                               });
+}
+
 }  // namespace
 
 RestEquations restEquations(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
@@ -72,11 +102,8 @@ RestEquations restEquations(const Mechanism& mechanism, const std::vector<std::s
   });
   equations.nearRest =
       record(unknowns + n, parameters, (3 * n + loops) * n, [&](auto, const auto& x, const auto& p, auto& y) {
-        std::vector<Recorded> v(x.begin(), x.begin() + n);
-        for (int j = 0; j < loops; ++j) v.push_back(unit * x[n + 1 + j] / x[n]);
-        v.insert(v.end(), x.begin() + unknowns, x.begin() + unknowns + n);
-        v.resize(3 * size, Recorded(0.0));
-        const std::vector<Recorded> all = evaluate<Recorded>(of.linear, v, {p.begin(), p.end()});
+        const std::vector<Recorded> all =
+            evaluate<Recorded>(of.linear, motionOf(of, unknowns, x, unit), {p.begin(), p.end()});
         const auto slope = [&](int i, int j) { return all[size + i * 3 * size + j]; };
         for (int derivative = 0; derivative < 3; ++derivative)
           for (int i = 0; i < n; ++i)
@@ -84,6 +111,7 @@ RestEquations restEquations(const Mechanism& mechanism, const std::vector<std::s
         for (int k = 0; k < loops; ++k)
           for (int j = 0; j < n; ++j) y[(3 * n + k) * n + j] = slope(n + k, j);
       });
+  takeResistances(of, of.parts(mechanism, freeParameters), unit, equations);
   if (loops > 0) {
     equations.multipliers.assign(loops + 1, Interval(-2.0, 2.0));  // with room around those that no load bears on
     equations.multipliers.front() = Interval(0.0, 2.0);

@@ -15,9 +15,11 @@ namespace gamut {
 ///
 ///   μ0 f + Λ Gᵀ μ = 0,   g = 0,   μ0² + |μ|² = 1.
 struct RestEquations {
-  Program roots;     ///< these, of q and, where there are loops, μ0 and μ, and of the free parameters
-  Program nearRest;  ///< of the same and of q̇, which are zero at rest: what NearRest::of reads
-  Box multipliers;   ///< which holds all (μ0, μ)
+  Program roots;                    ///< these, of q and, where there are loops, μ0 and μ, and of the free parameters
+  Program nearRest;                 ///< of the same and of q̇, which are zero at rest: what NearRest::of reads
+  Program resisting;                ///< likewise: what Resistances::of reads
+  int resistances = 0, masses = 0;  ///< of these
+  Box multipliers;                  ///< which holds all (μ0, μ)
   int coordinates = 0;
 };
 

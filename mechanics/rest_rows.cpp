@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <type_traits>
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/description/refusal.hpp"
+#include "mechanics/resisting.hpp"
 #include "scalars/evaluation/evaluate.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/program/sides.hpp"
@@ -39,6 +41,28 @@ std::set<Op> inputsOf(const Program& program) {
   for (int i = 0; i < static_cast<int>(program.nodes().size()); ++i)
     detail::forEachOperand(program.table(), i, [&](int operand) { inputs.insert(program.nodes()[operand].op); });
   return inputs;
+}
+
+/// c_k of all loads; from then on there are none.
+template <class S>
+std::vector<S> released(Assembly<S>& assembly) {
+  std::vector<S> all;
+  for (Load<S>* load : assembly.system().chain().loads())
+    if (auto* resisting = dynamic_cast<Resisting<S>*>(load)) {
+      std::ranges::move(resisting->resistances(), std::back_inserter(all));
+      resisting->release();
+    }
+  return all;
+}
+
+template <class S>
+std::vector<S> massesOf(Assembly<S>& assembly) {
+  std::vector<S> all;
+  for (const Inertia<S>* inertia : assembly.system().chain().inertias()) {
+    all.push_back(inertia->spatial().linear(0, 0));
+    for (const auto& [speed, resisted] : inertia->reflected()) all.push_back(resisted);
+  }
+  return all;
 }
 
 }  // namespace
@@ -76,6 +100,31 @@ RestRows::RestRows(const Mechanism& mechanism, const std::vector<std::string>& f
   dependsOnParameters = inputs.contains(Op::parameter);
   linear = forwardDifferentiated(rows);
   ofNumbers_ = std::make_shared<Evaluator<double>>(linear);
+}
+
+RestParts RestRows::parts(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) const {
+  const auto recorded = [&](std::size_t many, const auto& what) {
+    return record(3 * size, parameters, static_cast<int>(many), [&](auto t, const auto& x, const auto& p, auto& y) {
+      const std::span<const Recorded> all(x);
+      Assembly<Recorded> assembly(mechanism, freeParameters, p);
+      const auto rowsNow = [&] {
+        return assembly.rowsOfMotion(all.first(size), all.subspan(size, size), all.last(size), t);
+      };
+      std::ranges::copy(what(assembly, rowsNow), y.begin());
+    });
+  };
+  Assembly<double> counted(mechanism);
+  const std::size_t masses = massesOf(counted).size(), resistances = released(counted).size();
+  return {recorded(resistances,
+                   [](auto& assembly, const auto& rowsNow) {
+                     rowsNow();
+                     return released(assembly);
+                   }),
+          recorded(masses, [](auto& assembly, const auto& /*rowsNow*/) { return massesOf(assembly); }),
+          forwardDifferentiated(recorded(size, [](auto& assembly, const auto& rowsNow) {
+            released(assembly);
+            return rowsNow();
+          }))};
 }
 
 template <class S>

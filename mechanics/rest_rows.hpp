@@ -15,6 +15,13 @@ namespace gamut {
 template <class S>
 class Evaluator;
 
+/// What rows of motion are made of, of v, v̇, v̈.
+struct RestParts {
+  Program resistances;  ///< c_k of all loads (Resisting)
+  Program masses;       ///< of all bodies, and what rotors add to their joints
+  Program linear;       ///< R without c_k, with its Jacobian
+};
+
 /// At v, where v̇ = v̈ = 0: R, and F_0 = ∂R/∂v, F_1 = ∂R/∂v̇, F_2 = ∂R/∂v̈ row by row.
 template <class S>
 struct LinearRows {
@@ -35,6 +42,9 @@ struct RestRows {
   bool dependsOnParameters = false;  ///< otherwise there is one rest
   Program rows;                      ///< R of v, v̇, v̈
   Program linear;                    ///< with its Jacobian
+
+  /// By another recording of the mechanism.
+  RestParts parts(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) const;
 
   /// Of doubles, for one thread at a time.
   template <class S>

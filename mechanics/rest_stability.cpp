@@ -38,16 +38,27 @@ bool areBounded(const std::vector<Interval>& all) {
   return std::ranges::all_of(all, [](const Interval& x) { return isBounded(x); });
 }
 
+bool areAtLeast0(const std::vector<Interval>& all) {
+  return std::ranges::all_of(all, [](const Interval& x) { return isBounded(x) && x.lower() >= 0; });
+}
+
+/// Of what there is so much of, in all.
+bool isNear(const Interval& one, const Interval& other, double size) {
+  constexpr double least = 1e-60;
+  const double off = NearRest::rounding * size + least;
+  return isSubset(other, one + Interval(-off, off));
+}
+
 bool isZero(const Interval& x) { return isEqual(x, Interval(0.0)); }
 
 /// Whether a symmetric matrix has no eigenvalue below 0 (above 0 alone: `strictly`) for all values: by its pivots, of
-/// which those of rows and columns of exact zeros are 0.
+/// which those that stand alone in row and column may be 0.
 bool isPositive(Intervals m, bool strictly) {
   const Eigen::Index n = m.rows();
   for (Eigen::Index k = 0; k < n; ++k) {
-    bool isNothing = !strictly;
-    for (Eigen::Index j = k; j < n; ++j) isNothing = isNothing && isZero(m(k, j));
-    if (isNothing) continue;
+    bool isAlone = !strictly && m(k, k).lower() >= 0;
+    for (Eigen::Index j = k + 1; j < n; ++j) isAlone = isAlone && isZero(m(k, j));
+    if (isAlone) continue;
     if (!(m(k, k).lower() > 0)) return false;
     for (Eigen::Index i = k + 1; i < n; ++i)
       for (Eigen::Index j = i; j < n; ++j) {
@@ -123,6 +134,26 @@ NearRest NearRest::of(int coordinates, const std::vector<Interval>& matrices) {
           {begin + 3 * square, matrices.end()}};
 }
 
+Resistances Resistances::of(int coordinates, int resistances, int masses, const std::vector<Interval>& all) {
+  const auto second = all.begin() + resistances, third = second + masses;
+  return {coordinates, {all.begin(), second}, {second, third}, {third, all.end()}};
+}
+
+bool Resistances::areMassesPositive() const { return areAtLeast0(masses); }
+
+bool Resistances::isSymmetric() const {
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      if (i == j ? !isBounded(others[i * n + j]) : !isZero(others[i * n + j])) return false;
+  return areBounded(coefficients);
+}
+
+bool Resistances::takesEnergy() const {
+  if (!areAtLeast0(coefficients) || !areBounded(others)) return false;
+  const Intervals r = matrixOf(others, n, n);
+  return isPositive(Interval(0.5) * (r + r.transpose()), false);
+}
+
 double NearRest::sizeOfStiffness(int i, int j) const {
   const auto size = [this](int row, int column) { return magnitude(stiffness[row * n + column]); };
   return std::max({size(i, j), size(j, i), std::sqrt(size(i, i)) * std::sqrt(size(j, j))});
@@ -136,19 +167,18 @@ bool NearRest::hasPotential() const {
 }
 
 bool NearRest::isSmooth(const NearRest& about) const {
-  constexpr double least = 1e-60;
-  const auto isNear = [](const Interval& one, const Interval& other, double size) {
-    const double off = rounding * size + least;
-    return isSubset(other, one + Interval(-off, off));
-  };
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const Interval& c = damping[i * n + j];
-      if (!isNear(c, about.damping[i * n + j], magnitude(c)) ||
-          !isNear(stiffness[i * n + j], about.stiffness[i * n + j], sizeOfStiffness(i, j)))
-        return false;
-    }
+    for (int j = 0; j < n; ++j)
+      if (!isNear(stiffness[i * n + j], about.stiffness[i * n + j], sizeOfStiffness(i, j))) return false;
   return true;
+}
+
+bool Resistances::isSmooth(const Resistances& about) const {
+  const auto areNear = [](const std::vector<Interval>& one, const std::vector<Interval>& other) {
+    return std::ranges::equal(one, other,
+                              [](const Interval& x, const Interval& y) { return isNear(x, y, magnitude(x)); });
+  };
+  return areNear(coefficients, about.coefficients) && areNear(others, about.others);
 }
 
 std::optional<NearRest> NearRest::reduced() const {
@@ -185,6 +215,13 @@ RestStability stabilityOf(const NearRest& reduced, int negatives) {
   const Verified<Intervals> decays = verifiedSolve(mass, c);
   if (decays && decays->trace().upper() < 0) return unstable;
   return byLyapunov(FirstOrder(matrixOf(reduced.stiffness, n, n), c, mass));
+}
+
+RestStability stabilityOf(const Resistances& of, int negatives) {
+  using enum RestStability;
+  if (!of.areMassesPositive()) return unknown;
+  if (negatives == 0) return of.takesEnergy() ? stable : unknown;
+  return of.isSymmetric() ? unstable : unknown;
 }
 
 std::optional<int> negativeEigenvalues(const std::vector<Interval>& k, int n) {

@@ -6,8 +6,10 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "mechanics/element.hpp"
+#include "mechanics/resisting.hpp"
 
 namespace gamut {
 
@@ -41,7 +43,7 @@ class Chord {
 /// A spring and a viscous damper in parallel along a chord, with stiffness c [N/m], rest length l₀ [m] and damping d
 /// [N s/m].
 template <class S>
-class SpringDamper final : public Load<S> {
+class SpringDamper final : public Load<S>, public Resisting<S> {
  public:
   SpringDamper(Chord<S> chord, S stiffness, S restLength, S damping)
       : chord_(std::move(chord)),
@@ -56,6 +58,8 @@ class SpringDamper final : public Load<S> {
   S force() const;
 
   S potentialEnergy(const Vector3<S>&) const override;
+  std::vector<S> resistances() const override { return {damping_}; }
+  void release() override { damping_ = S(0.0); }
 
  private:
   void applyForce() override;
@@ -67,7 +71,7 @@ class SpringDamper final : public Load<S> {
 /// A torsional or linear spring and viscous friction on one joint variable: stiffness [N m/rad or N/m], rest position
 /// [rad or m], damping [N m s/rad or N s/m].
 template <class S>
-class JointSpringDamper final : public Load<S> {
+class JointSpringDamper final : public Load<S>, public Resisting<S> {
  public:
   JointSpringDamper(Variable<S>& variable, S stiffness, S restPosition, S damping)
       : variable_(variable),
@@ -76,6 +80,8 @@ class JointSpringDamper final : public Load<S> {
         damping_(std::move(damping)) {}
 
   S potentialEnergy(const Vector3<S>&) const override;
+  std::vector<S> resistances() const override { return {damping_}; }
+  void release() override { damping_ = S(0.0); }
 
  private:
   void applyForce() override;

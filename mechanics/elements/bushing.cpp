@@ -2,12 +2,13 @@
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/measurements.hpp"
+#include "mechanics/resisting.hpp"
 
 namespace gamut {
 namespace {
 
 template <class S>
-class BushingLoad final : public Load<S> {
+class BushingLoad final : public Load<S>, public Resisting<S> {
  public:
   struct Numbers {
     Vector3<S> stiffness, damping, angularStiffness, angularDamping;
@@ -45,6 +46,15 @@ class BushingLoad final : public Load<S> {
       energy = energy + S(0.5) * (is_.stiffness[i] * square(x[i])) + turning(i) * (S(1.0) - a(i, i));
     return energy;
   }
+
+  /// Along and about the axes of `from`.
+  std::vector<S> resistances() const override {
+    std::vector<S> all;
+    for (const Vector3<S>* each : {&is_.damping, &is_.angularDamping})
+      for (int i = 0; i < 3; ++i) all.push_back((*each)[i]);
+    return all;
+  }
+  void release() override { is_.damping = is_.angularDamping = zeroVector<S>(); }
 
  private:
   /// c_i.

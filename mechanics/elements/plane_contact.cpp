@@ -10,6 +10,7 @@
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/load_on_axis.hpp"
+#include "mechanics/resisting.hpp"
 #include "mechanics/seen.hpp"
 
 namespace gamut {
@@ -27,7 +28,7 @@ Axis across(const Axis& axis) {
 }
 
 template <class S>
-class PlaneContactLoad final : public Load<S>, public LoadOnAxis<S> {
+class PlaneContactLoad final : public Load<S>, public LoadOnAxis<S>, public Resisting<S> {
  public:
   struct Numbers {
     S radius, stiffness, damping, friction, slipRate;
@@ -86,6 +87,17 @@ class PlaneContactLoad final : public Load<S>, public LoadOnAxis<S> {
   }
 
   S potentialEnergy(const Vector3<S>&) const override { return S(0.5) * (is_.stiffness * square(depthOf(motion()))); }
+
+  /// Of the speed of entering, and of slip.
+  std::vector<S> resistances() const override {
+    const Motion now = motion();
+    const S press = is_.stiffness * depthOf(now);
+    std::vector<S> all;
+    if (is_.isDamped) all.push_back(is_.damping * press);
+    if (is_.slips) all.resize(all.size() + 2, is_.friction * pushing(now) / is_.slipRate);
+    return all;
+  }
+  void release() override { is_.isDamped = is_.slips = false; }
 
   void moveAhead(const Frame<S>& turned, const Axis& axis, Frame<S>& unturned) override {
     for (int i = 0; i < 3; ++i)

@@ -68,19 +68,44 @@ std::optional<std::array<Box, 2>> halvesOf(const Box& box) {
   return halves;
 }
 
-/// Near a root of the equations, along the loops; nothing where forces have kinks there.
-std::optional<NearRest> nearRest(const RestEquations& equations, const Box& root, const Box& parameters) {
-  const auto at = [&](const Interval& off) -> std::optional<NearRest> {
+struct NearRoot {
+  NearRest motion;
+  Resistances resistances;
+};
+
+/// Near a root of the equations; nothing where forces have kinks there.
+std::optional<NearRoot> nearRoot(const RestEquations& equations, const Box& root, const Box& parameters) {
+  const auto at = [&](const Interval& off) -> std::optional<NearRoot> {
+    const int n = equations.coordinates;
     Box x = root;
-    for (int i = 0; i < equations.coordinates; ++i) x[i] += off;
-    x.insert(x.end(), equations.coordinates, off);
-    const std::vector<Interval> all = evaluate<Interval>(equations.nearRest, x, parameters, Interval(0.0));
-    if (std::ranges::any_of(all, [](const Interval& each) { return isEmpty(each); })) return {};  // no derivative
-    return NearRest::of(equations.coordinates, all);
+    for (int i = 0; i < n; ++i) x[i] += off;
+    x.insert(x.end(), n, off);
+    const std::vector<Interval> motion = evaluate<Interval>(equations.nearRest, x, parameters, Interval(0.0)),
+                                resisting = evaluate<Interval>(equations.resisting, x, parameters, Interval(0.0));
+    for (const auto* all : {&motion, &resisting})
+      if (std::ranges::any_of(*all, [](const Interval& each) { return isEmpty(each); })) return {};  // no derivative
+    return NearRoot{NearRest::of(n, motion), Resistances::of(n, equations.resistances, equations.masses, resisting)};
   };
   constexpr double aboutZero = 1e-100;
-  const std::optional<NearRest> near = at(Interval(0.0)), about = at(Interval(-aboutZero, aboutZero));
-  return near && about && near->isSmooth(*about) ? near->reduced() : std::nullopt;
+  const std::optional<NearRoot> near = at(Interval(0.0)), about = at(Interval(-aboutZero, aboutZero));
+  const bool isSmooth =
+      near && about && near->motion.isSmooth(about->motion) && near->resistances.isSmooth(about->resistances);
+  return isSmooth ? near : std::nullopt;
+}
+
+/// Along the loops.
+std::optional<NearRest> nearRest(const RestEquations& equations, const Box& root, const Box& parameters) {
+  const std::optional<NearRoot> near = nearRoot(equations, root, parameters);
+  return near ? near->motion.reduced() : std::nullopt;
+}
+
+RestStability stabilityAt(const RestEquations& equations, const Box& root, const Box& parameters, int negatives) {
+  const std::optional<NearRoot> near = nearRoot(equations, root, parameters);
+  if (!near || !near->resistances.areMassesPositive()) return RestStability::unknown;
+  const RestStability its = stabilityOf(near->resistances, negatives);
+  if (its != RestStability::unknown) return its;
+  const std::optional<NearRest> reduced = near->motion.reduced();
+  return reduced ? stabilityOf(*reduced, negatives) : RestStability::unknown;
 }
 
 /// The root of some of a part's parameters, if that is found soon.
@@ -120,7 +145,8 @@ std::optional<int> negativesOf(const RestEquations& equations, const RootBranch&
   const std::optional<Box> root = rootAt(equations, part, middle, 200000);
   if (!root) return {};
   const std::optional<NearRest> near = nearRest(equations, *root, middle);
-  if (!near || !near->hasPotential() || !haveForcesAPotential(equations, family)) return {};
+  if (!near || negativeEigenvalues(near->mass, near->n) != 0) return {};  // where a joint moves no mass
+  if (!near->hasPotential() || !haveForcesAPotential(equations, family)) return {};
   return negativeEigenvalues(near->stiffness, near->n);
 }
 
@@ -138,8 +164,7 @@ RestStability stabilityOf(const RestEquations& equations, const RootBranch& fami
       open.pop_back();
       const Box root =
           isWithin(part.parameters, parameters) ? part.root : rootAt(equations, part, parameters).value_or(part.root);
-      const std::optional<NearRest> near = nearRest(equations, root, parameters);
-      const RestStability its = near ? stabilityOf(*near, *negatives) : RestStability::unknown;
+      const RestStability its = stabilityAt(equations, root, parameters, *negatives);
       if (its != RestStability::unknown) {
         found.insert(its);
         continue;

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -143,6 +144,77 @@ TEST(RestStability, IsOfTheMotionAlongLoops) {
   EXPECT_FALSE(near.reduced().has_value());
 }
 
+/// The greatest real part of s, det(s² + s C + K) = 0.
+double greatestRealPart(const Eigen::MatrixXd& k, const Eigen::MatrixXd& c) {
+  const auto n = k.rows();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n).setIdentity();
+  a.bottomLeftCorner(n, n) = -k;
+  a.bottomRightCorner(n, n) = -c;
+  return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues().real().maxCoeff();
+}
+
+/// Dampers, fewer than coordinates and more, with c_k at the ends of their intervals and between.
+TEST(RestStability, OfDampersIsThatOfAllInThem) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> number(-1, 1), share(0, 1);
+  int stables = 0, unstables = 0;
+  for (int n = 1; n <= 5; ++n)
+    for (int tried = 0; tried < 60; ++tried) {
+      Resistances of{n, {}, {Interval(1.0), Interval(0.0, 2.0)}, intervals(Numbers(n * n, 0.0))};
+      std::vector<Eigen::VectorXd> rates;
+      for (int k = 0; k <= tried % (n + 2); ++k) {
+        const double least = tried % 3 == 0 ? number(random) : tried % 3 == 1 ? 0 : share(random);
+        of.coefficients.emplace_back(least, least + share(random));
+        rates.push_back(Eigen::VectorXd::NullaryExpr(n, [&] { return std::round(2 * number(random)); }));
+      }
+      for (int i = 0; i < n && tried % 2 == 0; ++i) of.others[i * n + i] = Interval(0.0, share(random));
+      Eigen::MatrixXd k = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return number(random); });
+      k = Eigen::MatrixXd(k + k.transpose());
+      if (tried % 4 < 2) k += 2 * n * Eigen::MatrixXd::Identity(n, n);
+      const Eigen::VectorXd squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
+      if (squares.cwiseAbs().minCoeff() < 1e-3) continue;
+      const RestStability found = stabilityOf(of, static_cast<int>((squares.array() < 0).count()));
+      if (found == unknown) continue;
+      ++(found == stable ? stables : unstables);
+      for (int sample = 0; sample < 20; ++sample) {
+        const auto at = [&](const Interval& range) {
+          return sample < 2 ? (sample == 0 ? range.lower() : range.upper())
+                            : range.lower() + share(random) * (range.upper() - range.lower());
+        };
+        Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
+        for (std::size_t j = 0; j < rates.size(); ++j) c += at(of.coefficients[j]) * rates[j] * rates[j].transpose();
+        for (int i = 0; i < n; ++i) c(i, i) += at(of.others[i * n + i]);
+        const double most = greatestRealPart(k, c);
+        EXPECT_TRUE(found == stable ? most < 1e-9 : most > 1e-6) << n << " " << tried << " " << most;
+      }
+    }
+  EXPECT_GT(stables, 50);
+  EXPECT_GT(unstables, 50);
+}
+
+TEST(RestStability, OfDampersIsNotClaimedWhereTheyMayDrive) {
+  Resistances of{2, intervals({0.1}), intervals({1}), intervals({0, 0, 0, 0})};
+  EXPECT_EQ(stabilityOf(of, 0), stable);
+  EXPECT_EQ(stabilityOf(of, 1), unstable);
+  EXPECT_EQ(stabilityOf(of, 2), unstable);
+  of.coefficients[0] = Interval(-1e-9, 0.2);
+  EXPECT_EQ(stabilityOf(of, 0), unknown);
+  EXPECT_EQ(stabilityOf(of, 2), unstable);
+  of.coefficients[0] = Interval(0.0, 0.2);
+  EXPECT_EQ(stabilityOf(of, 0), stable);
+  // What turns the motion aside takes no energy, but may hold what would fall.
+  of.others = intervals({0, 0.5, -0.5, 0});
+  EXPECT_EQ(stabilityOf(of, 0), stable);
+  EXPECT_EQ(stabilityOf(of, 2), unknown);
+  of.others = intervals({0, 0.5, 0.5, 0});
+  EXPECT_EQ(stabilityOf(of, 0), unknown);
+  of.others = intervals({0, 0, 0, 0});
+  of.masses.emplace_back(-0.1, 1.0);
+  EXPECT_EQ(stabilityOf(of, 0), unknown);
+  EXPECT_EQ(stabilityOf(of, 1), unknown);
+}
+
 TEST(RestStability, IsNotAskedOfForcesWithoutAPotential) {
   EXPECT_TRUE((Motion{1, {2, -1, -1, 2}, {0, 0, 0, 0}}.nearRest().hasPotential()));
   EXPECT_FALSE((Motion{1, {2, -1, 1, 2}, {0, 0, 0, 0}}.nearRest().hasPotential()));
@@ -152,12 +224,24 @@ TEST(RestStability, IsNotAskedOfForcesWithoutAPotential) {
 }
 
 TEST(RestStability, IsNotAskedWhereRatesHaveKinks) {
-  const NearRest near = Motion{1, {2, -1, -1, 2}, {0.1, 0, 0, 0.1}}.nearRest();
-  NearRest moving = near;
-  moving.damping[0] = Interval(0.1) + Interval(-1e-90, 1e-90);
+  const Resistances near{2, intervals({0.3}), intervals({1}), intervals({0.1, 0, 0, 0.1})};
+  Resistances moving = near;
+  moving.others[0] = Interval(0.1) + Interval(-1e-90, 1e-90);
   EXPECT_TRUE(near.isSmooth(moving));
-  moving.damping[0] = Interval(-2.9, 3.1);
+  moving.others[0] = Interval(-2.9, 3.1);
   EXPECT_FALSE(near.isSmooth(moving));
+  moving = near;
+  moving.coefficients[0] = Interval(0.3, 0.4);
+  EXPECT_FALSE(near.isSmooth(moving));
+}
+
+TEST(RestStability, IsNotAskedWhereForcesOfPositionHaveKinks) {
+  const NearRest near = Motion{1, {2, -1, -1, 2}, {0, 0, 0, 0}}.nearRest();
+  NearRest beside = near;
+  beside.stiffness[0] += Interval(-1e-90, 1e-90);
+  EXPECT_TRUE(near.isSmooth(beside));
+  beside.stiffness[0] = Interval(1.0, 2.0);
+  EXPECT_FALSE(near.isSmooth(beside));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // 128 bits, for any number of masses, and what is refused.
 #include <gmock/gmock.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -9,6 +10,9 @@
 #include <vector>
 
 #include "analyses/samples/arbiter.hpp"
+#include "mechanics/rest_equations.hpp"
+#include "mechanics/rest_stability.hpp"
+#include "scalars/evaluation/evaluate.hpp"
 #include "studies/analyses/equilibria.hpp"
 #include "studies/machine.hpp"
 #include "studies/running/run.hpp"
@@ -462,6 +466,180 @@ TEST(Equilibria, AreUnstableWhereResistancesGiveEnergy) {
             (Found{0}));
 }
 
+std::string refusalOf(const std::string& text);
+
+std::string damperBetween(const std::string& name, const std::string& from, const std::string& to,
+                          const std::string& damping) {
+  return element("spring-damper", name,
+                 "from = \"" + from + "\"\nto = \"" + to + "\"\nto_point = [1, \"0.5\", 0]\nstiffness = 0\n" +
+                     "rest_length = 0\ndamping = \"" + damping + "\"");
+}
+
+/// A chain with one damper or two, from mass to mass.
+std::string dampedChain(int many, const std::string& tolerance, const std::string& damping) {
+  const std::string last = "F" + std::to_string(many), middle = "F" + std::to_string((many + 1) / 2);
+  return chain(many, tolerance,
+               damperBetween("D", many > 1 ? middle : "inertial", last, "0.3") +
+                   (many > 3 ? damperBetween("E", "F1", middle, "0.1") : "") +
+                   "[[uncertain]]\nquantity = \"D.damping\"\ninterval = " + damping + "\n" + output("J1.displacement"),
+               "\"interval\"", tolerance) +
+         "[equilibria]\ndisplacements = \"1 mm\"\n";
+}
+
+/// What is damped is next to nothing of what moves.
+TEST(Equilibria, OfMassesWithDampersBetweenThemAreStable) {
+  for (const int many : {1, 2, 3, 10})
+    for (const char* tolerance : {"± 1 %", "± 5 %", "± 15 %"})
+      for (const char* damping : {"\"± 15 %\"", "[0, \"0.5\"]"}) {
+        const Results results = run(machineOf(dampedChain(many, tolerance, damping)), {});
+        const EquilibriaResult& all = results.of<EquilibriaResult>();
+        EXPECT_TRUE(all.isComplete) << all.why;
+        EXPECT_EQ(all.stability, (std::vector<std::int64_t>{1})) << many << tolerance << damping;
+      }
+  EXPECT_EQ(run(machineOf(dampedChain(3, "± 5 %", "[\"-0.01\", \"0.5\"]")), {}).of<EquilibriaResult>().stability,
+            (std::vector<std::int64_t>{0}));
+}
+
+/// Two arms, and a damper from the base to the second: hanging, upright, and folded either way.
+TEST(Equilibria, OfArmsWithADamperAreKnown) {
+  const auto arm = [](const std::string& name, const std::string& from, const std::string& to, const char* at) {
+    return hinge(name, from, to, at) +
+           element("mass", "m" + name, "at = \"" + to + "\"\nmass = \"ma\"\ncentre = [\"0.3\", 0, 0]") +
+           element("link", "l" + name, "from = \"" + to + "\"\nto = \"E" + to + "\"\nvector = [\"0.5\", 0, 0]");
+  };
+  const std::string arms = "gravity = [0, \"-9.81\", 0]\nparameters = { ma = \"2 kg\", cd = \"4 N s/m\" }\n" +
+                           arm("A", "inertial", "K1", "\"-80 deg\"") + arm("B", "EK1", "K2", "\"10 deg\"") +
+                           damperBetween("D", "inertial", "K2", "cd");
+  for (const char* tolerance : {"± 1 %", "± 5 %", "± 15 %"}) {
+    const Results results = run(machineOf(studyOf(arms + uncertain("ma", tolerance) + uncertain("cd", tolerance),
+                                                  output("A.angle"), "\"interval\"") +
+                                          "[equilibria]\nangles = \"175 deg\"\n"),
+                                {});
+    const EquilibriaResult& all = results.of<EquilibriaResult>();
+    ASSERT_EQ(all.number.size(), 4) << all.why;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool hangs = positionOf(all, k).upper() < 0 && magnitude(positionOf(all, k, 1)) < 1;
+      EXPECT_EQ(all.stability[k], hangs ? 1 : -1) << tolerance << k;
+    }
+  }
+}
+
+/// Across a loop.
+TEST(Equilibria, OfALoopWithADamperAcrossAreKnown) {
+  for (const char* damping : {"± 15 %", "± 100 %"}) {
+    const Results results =
+        run(machineOf(studyOf(linkage() + damperBetween("d", "K1", "K3", "0.5") + uncertain("d.damping", damping),
+                              output("A.angle"), "\"interval\"") +
+                      "[equilibria]\nangles = \"180 deg\"\n"),
+            {});
+    const EquilibriaResult& all = results.of<EquilibriaResult>();
+    ASSERT_EQ(all.number.size(), 4) << all.why;
+    EXPECT_EQ(std::ranges::count(all.stability, 1), 2) << damping;
+    EXPECT_EQ(std::ranges::count(all.stability, -1), 2) << damping;
+  }
+}
+
+/// C less what others resist by is Σ c_k j_k j_kᵀ: symmetric, of the sign of all c_k, and of no higher rank than they
+/// are many.
+void expectResistancesOf(const std::string& text, int sign, const std::vector<double>& at) {
+  const Study study = readStudyText(text, "s.toml");
+  const RestEquations equations = restEquations(study.mechanism, {});
+  const int n = equations.coordinates;
+  Box x(at.begin(), at.end());
+  if (equations.roots.states() > n) {
+    x.resize(equations.roots.states(), Interval(0.0));
+    x[n] = Interval(1.0);
+  }
+  x.resize(x.size() + n, Interval(0.0));
+  const Resistances resistances = Resistances::of(n, equations.resistances, equations.masses,
+                                                  evaluate<Interval>(equations.resisting, x, {}, Interval(0.0)));
+  const NearRest near = NearRest::of(n, evaluate<Interval>(equations.nearRest, x, {}, Interval(0.0)));
+  Eigen::MatrixXd c(n, n);
+  for (int i = 0; i < n * n; ++i) c(i / n, i % n) = midpoint(near.damping[i]) - midpoint(resistances.others[i]);
+  const double size = c.cwiseAbs().maxCoeff();
+  EXPECT_GT(size, 1e-3);
+  EXPECT_LE((c - c.transpose()).cwiseAbs().maxCoeff(), 1e-12 * size);
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(sign * c).eigenvalues();
+  EXPECT_GE(values[0], -1e-12 * size);
+  const auto nonzero =
+      std::ranges::count_if(resistances.coefficients, [](const Interval& k) { return !contains(k, 0); });
+  EXPECT_LE((values.array() > 1e-12 * size).count(), nonzero);
+  EXPECT_GE(nonzero, 1);
+  for (const Interval& each : resistances.coefficients) EXPECT_GE(sign * midpoint(each), 0);
+  EXPECT_EQ(resistances.takesEnergy(), sign > 0);
+  EXPECT_TRUE(resistances.isSymmetric());
+}
+
+TEST(Equilibria, KnowByWhatLoadsResist) {
+  const std::string joints =
+      hinge("A", "inertial", "K1") + element("revolute", "B", "from = \"K1\"\nto = \"K2\"\naxis = \"x\"") +
+      element("link", "l", "from = \"K2\"\nto = \"E\"\nvector = [\"0.3\", \"0.2\", \"-0.4\"]") +
+      element("prismatic", "P", "from = \"E\"\nto = \"K3\"\naxis = \"y\"") +
+      element("revolute", "Q", "from = \"K3\"\nto = \"K4\"\naxis = \"z\"") +
+      element("mass", "m", "at = \"K4\"\nmass = 1\ninertia = [1, 1, 1]\ncentre = [\"0.1\", 0, 0]");
+  const std::vector<double> at{0.3, -0.4, 0.1, 0.7};
+  const auto studyWith = [&](const std::string& mechanism) { return studyOf(mechanism, output("A.angle")); };
+  const std::string ends = "from_point = [\"0.3\", \"-0.2\", \"0.7\"]\nto_point = [\"0.1\", \"0.4\", \"0.2\"]\n";
+  for (const int sign : {1, -1}) {
+    const auto signedNumber = [&](const std::string& text) {
+      return "\"" + std::string(sign < 0 ? "-" : "") + text + "\"";
+    };
+    for (const std::string from : {"inertial", "K2"}) {
+      const std::string both = "from = \"" + from + "\"\nto = \"K4\"\n" + ends;
+      expectResistancesOf(
+          studyWith(joints + element("spring-damper", "D", both + "stiffness = 3\ndamping = " + signedNumber("0.7"))),
+          sign, at);
+      const auto vector = [&](const char* x, const char* y, const char* z) {
+        return "[" + signedNumber(x) + ", " + signedNumber(y) + ", " + signedNumber(z) + "]\n";
+      };
+      expectResistancesOf(studyWith(joints + element("bushing", "D",
+                                                     both + "stiffness = [1, 2, 3]\nangular_stiffness = [3, 4, 5]\n" +
+                                                         "damping = " + vector("0.3", "0.5", "0.1") +
+                                                         "angular_damping = " + vector("0.2", "0.4", "0.6"))),
+                          sign, at);
+    }
+    expectResistancesOf(studyWith(joints + element("joint-spring", "D",
+                                                   "joint = \"P\"\nstiffness = 1\ndamping = " + signedNumber("2"))),
+                        sign, at);
+  }
+  // Pressed into a plane, on which it would slip.
+  expectResistancesOf(
+      studyWith(joints + element("plane-contact", "D",
+                                 "from = \"K1\"\nto = \"K4\"\nfrom_point = [0, 0, 1]\nnormal = [\"0.6\", 0, \"0.8\"]\n"
+                                 "radius = \"0.3\"\nstiffness = 100\ndamping = \"0.1\"\nfriction = \"0.5\"\n"
+                                 "slip_rate = \"0.2 m/s\"")),
+      1, at);
+}
+
+/// With forces of a potential and none; what turns the motion aside.
+TEST(Equilibria, AreNotSettledByDampersWhereForcesHaveNoPotential) {
+  const auto stabilityWith = [](const std::string& k, const std::string& off, const std::string& aside,
+                                const std::string& damping = "2") {
+    const auto force = [&](const std::string& own, const std::string& other, const std::string& sign) {
+      return element("joint-force", "F" + own,
+                     "joint = \"" + own + "\"\nforce = \"(-(" + k + ")*" + own + ".displacement + " + sign + "(" + off +
+                         ")*" + other + ".displacement)*(1 N/m) + " + sign + "(" + aside + ")*(1 N s/m)*" + other +
+                         ".rate\"");
+    };
+    const Results results =
+        run(machineOf(studyOf(element("prismatic", "X", "from = \"inertial\"\nto = \"A\"\naxis = \"x\"") +
+                                  element("prismatic", "Y", "from = \"A\"\nto = \"B\"\naxis = \"y\"") +
+                                  element("mass", "b", "at = \"B\"\nmass = 1") + force("X", "Y", "") +
+                                  force("Y", "X", "-") + damperBetween("D", "inertial", "B", damping),
+                              output("X.displacement"), "\"interval\"") +
+                      "[equilibria]\ndisplacements = \"10 mm\"\n"),
+            {});
+    return results.of<EquilibriaResult>().stability;
+  };
+  using Found = std::vector<std::int64_t>;
+  EXPECT_EQ(stabilityWith("100", "0", "0"), (Found{1}));
+  EXPECT_EQ(stabilityWith("100", "30", "0"), (Found{0}));  // a follower force
+  EXPECT_EQ(stabilityWith("100", "0", "3"), (Found{1}));
+  EXPECT_EQ(stabilityWith("-100", "0", "0"), (Found{-1}));
+  EXPECT_EQ(stabilityWith("-100", "0", "0", "-2"), (Found{-1}));
+  EXPECT_NE(stabilityWith("-100", "0", "50", "0"), (Found{-1}));  // held by what turns it aside
+}
+
 /// On a coordinate that closes the loop.
 TEST(Equilibria, OfALoopAreUnstableWhereAJointGivesEnergy) {
   for (const auto& [damping, sign] : {std::pair{"0.5", 1}, {"-0.5", -1}}) {
@@ -530,8 +708,6 @@ TEST(Equilibria, HoldTheOneThatIsProvedToBeThere) {
     EXPECT_THAT(found.why, HasSubstr("not settled: one that is proved for all values moves by 30.9 deg of A.angle"));
   }
 }
-
-std::string refusalOf(const std::string& text);
 
 /// Opposite to where it begins, at either end of the turn.
 TEST(Equilibria, AreNotLostWhereAWholeTurnEnds) {
