@@ -263,8 +263,9 @@ ClosedBox closedBox(const Machine& machine, Box other, const Box& known = {}, co
                                                isFirst || !machine.rest ? 1e-9 : 1.0,
                                                withinAMinute(progress, machine.rest ? "rest" : "loops"));
     if (family.remainder.empty()) {
-      if (machine.rest) refuseUnprovedRest(machine.study, machine.freeParameters, *family.open, isFirst);
-      refuseOpenLoops(machine.study, machine.freeParameters, *family.open);
+      if (machine.rest)
+        refuseUnprovedRest(machine.study, machine.freeParameters, *family.open, isFirst, std::span(&newton, 1));
+      refuseOpenLoops(machine.study, machine.freeParameters, *family.open, newton);
     }
     for (const Interval& each : family.remainder) closed.box[*slot++] = each;
     if (isFirst) open = family.remainder;
@@ -284,7 +285,8 @@ ClosedBox closedBox(const Machine& machine, Box other, const Box& known = {}, co
   const std::vector<int> numbers = numbersOfModes(*machine.rest);
   const std::vector<Interval> squares = closed.vibrations->ranges(numbers, own);
   if (!std::ranges::all_of(squares, [](const Interval& each) { return isBounded(each); }))
-    refuseUnprovedRest(machine.study, machine.freeParameters, own, false);
+    refuseUnprovedRest(machine.study, machine.freeParameters, own, false,
+                       std::array{vibration.pencil, machine.rest->position()});
   const EigenvalueBounds::Beside beside = closed.vibrations->beside(vibration.near, vibration.shapes, numbers, squares);
   putEnds(beside.ranges, closed.box, machine.states);
   for (const Interval& off : beside.off) {

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <new>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -121,16 +123,35 @@ void refuseJointsAlike(const Study& study) {
 
 namespace {
 
-/// " for 'a' in [1, 2] mm, 'b' in …", outward, as the study states them.
-std::string valuesIn(const Study& study, const std::vector<std::string>& freeParameters, const Box& part) {
+/// Those that outputs of programs follow from.
+std::set<int> parametersOf(std::span<const Program> programs) {
+  std::set<int> parameters;
+  for (const Program& program : programs) {
+    std::vector<char> isNeeded(program.nodes().size(), 0);
+    for (const int node : program.outputNodes()) isNeeded[static_cast<std::size_t>(node)] = 1;
+    for (std::size_t i = program.nodes().size(); i-- > 0;) {
+      if (isNeeded[i] == 0) continue;
+      if (program.nodes()[i].op == Op::parameter) parameters.insert(program.nodes()[i].a);
+      detail::forEachOperand(program.table(), static_cast<int>(i),
+                             [&](int operand) { isNeeded[static_cast<std::size_t>(operand)] = 1; });
+    }
+  }
+  return parameters;
+}
+
+/// " for 'a' in [1, 2] mm, 'b' in …", outward, as the study states them; of those that the equations ask for.
+std::string valuesIn(const Study& study, const std::vector<std::string>& freeParameters, const Box& part,
+                     std::span<const Program> equations) {
   constexpr int resolved = 3;  // digits of a width
+  const std::set<int> asked = parametersOf(equations);
   std::string values;
   for (std::size_t i = 0; i < std::min(part.size(), freeParameters.size()); ++i) {
+    if (!asked.contains(static_cast<int>(i))) continue;
     const auto uncertain = std::ranges::find(study.uncertain, freeParameters[i], &UncertainQuantity::quantity);
     const Told told = uncertain == study.uncertain.end() ? Told("", "") : Told(uncertain->unit, uncertain->told);
     const auto [from, to] = told.of(part[i].lower(), part[i].upper());
     const auto [lower, upper] = outwardBounds(from, to, 0, resolved);
-    values += fmt::format("{}'{}' in {}", i == 0 ? " for " : ", ", freeParameters[i],
+    values += fmt::format("{}'{}' in {}", values.empty() ? " for " : ", ", freeParameters[i],
                           inUnit(fmt::format("[{}, {}]", lower, upper), told.unit()));
   }
   return values;
@@ -145,18 +166,19 @@ std::string numberOf(const Study& study, double value, const std::string& name, 
 }  // namespace
 
 void refuseUnprovedRest(const Study& study, const std::vector<std::string>& freeParameters, const Box& part,
-                        bool isPosition) {
+                        bool isPosition, std::span<const Program> equations) {
   refuse(study.places.mechanism,
          fmt::format("{} not proved to exist{}", isPosition ? "a position of rest is" : "all modes at rest are",
-                     valuesIn(study, freeParameters, part)),
+                     valuesIn(study, freeParameters, part, equations)),
          isPosition ? "narrower intervals: somewhere in these the position may vanish, or come together with another"
          : study.mechanism.degreesOfFreedom() > 1
              ? "narrower intervals, or outputs of other modes: somewhere in these two may come together"
              : "narrower intervals: somewhere in these its stiffness or its mass may vanish");
 }
 
-void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part) {
-  const std::string values = valuesIn(study, freeParameters, part);
+void refuseOpenLoops(const Study& study, const std::vector<std::string>& freeParameters, const Box& part,
+                     const Program& equations) {
+  const std::string values = valuesIn(study, freeParameters, part, std::span(&equations, 1));
   const Mechanism::Closed& first = study.mechanism.loops().front();
   const bool isOne = study.mechanism.loops().size() == 1;
   refuse(study.places.of(first.element),
@@ -165,27 +187,9 @@ void refuseOpenLoops(const Study& study, const std::vector<std::string>& freePar
          "narrower intervals, or a position that is farther from where the loop cannot be closed");
 }
 
-namespace {
-
-/// Those that outputs of a program follow from.
-std::set<int> parametersOf(const Program& program) {
-  std::vector<char> isNeeded(program.nodes().size(), 0);
-  for (const int node : program.outputNodes()) isNeeded[static_cast<std::size_t>(node)] = 1;
-  std::set<int> parameters;
-  for (std::size_t i = program.nodes().size(); i-- > 0;) {
-    if (isNeeded[i] == 0) continue;
-    if (program.nodes()[i].op == Op::parameter) parameters.insert(program.nodes()[i].a);
-    detail::forEachOperand(program.table(), static_cast<int>(i),
-                           [&](int operand) { isNeeded[static_cast<std::size_t>(operand)] = 1; });
-  }
-  return parameters;
-}
-
-}  // namespace
-
 void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters) {
   if (std::ranges::none_of(study.uncertain, &UncertainQuantity::varies)) return;
-  const std::set<int> inRows = parametersOf(recordLoops(study.mechanism, freeParameters));
+  const std::set<int> inRows = parametersOf(std::array{recordLoops(study.mechanism, freeParameters)});
   for (const UncertainQuantity& uncertain : study.uncertain) {
     const auto name = std::ranges::find(freeParameters, uncertain.quantity);
     if (uncertain.varies && name != freeParameters.end() &&

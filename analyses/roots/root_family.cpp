@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,8 @@ class Prover {
     for (int i = n_ + quantities_; i < n_ + newton.parameters(); ++i) narrow_.push_back(i);
     all_ = narrow_;
     for (int i = 0; i < n_; ++i) all_.push_back(i);
+    for (const Node& node : newton.nodes())
+      if (node.op == Op::parameter) asked_.insert(node.a);
   }
 
   /// Roots of neighbouring parts are of one family where each lies in what the other's is alone in: else once more,
@@ -137,11 +140,12 @@ class Prover {
     return share;
   }
 
-  /// Of what is wide, as a part of what it was.
+  /// Of what is wide, as a part of what it was, and moves the roots.
   int widestOf(const Box& part) const {
     int widest = -1;
     double most = 0x1p-8;
     for (int i = 0; i < quantities_; ++i) {
+      if (!asked_.contains(i)) continue;
       const double share = width(part[i]) / width(whole_[i]);
       if (share > most) {
         most = share;
@@ -243,6 +247,7 @@ class Prover {
   double enough_;
   const std::function<bool(double)>& goesOn_;
   int n_, quantities_;
+  std::set<int> asked_;            // parameters that the map asks for
   std::vector<int> narrow_, all_;  // what carries no symbol: parameters that are none, δ too
   std::vector<double> radii_;      // of the box about 0, the widest so far
   std::vector<Part> parts_;

@@ -640,6 +640,15 @@ TEST(Equilibria, AreNotSettledByDampersWhereForcesHaveNoPotential) {
   EXPECT_NE(stabilityWith("-100", "0", "50", "0"), (Found{-1}));  // held by what turns it aside
 }
 
+TEST(Equilibria, NameOnlyQuantitiesThatRestFollowsFrom) {
+  const std::string pushed = pendulum + element("joint-force", "push", "joint = \"A\"\nforce = \"9.5 N m\"") +
+                             element("state", "z", "initial = 0\nrate = \"(A.angle/(1 rad) - z)/(1 s)\"") +
+                             uncertain("c", "± 15 %");
+  const std::string text = refusalOf(studyOf(pushed + uncertain("l", "± 5 %"), output("A.angle")));
+  EXPECT_THAT(text, HasSubstr("a position of rest is not proved to exist for 'l' in ["));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("'c'")));
+}
+
 /// On a coordinate that closes the loop.
 TEST(Equilibria, OfALoopAreUnstableWhereAJointGivesEnergy) {
   for (const auto& [damping, sign] : {std::pair{"0.5", 1}, {"-0.5", -1}}) {
