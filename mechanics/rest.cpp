@@ -179,6 +179,21 @@ int Rest::remainders() const {
   return sum;
 }
 
+std::vector<double> Rest::ownInertias() const {
+  const std::vector<double> byAcceleration = rows_.at<double>(nominal_, values_).byAcceleration;
+  std::vector<double> all;
+  for (int i = 0; i < rows_.coordinates; ++i) all.push_back(-byAcceleration[i * rows_.size + i]);
+  return all;
+}
+
+std::vector<Recorded> Rest::dampedAt(std::size_t k, std::span<const Recorded> remainders,
+                                     std::span<const Recorded> parameters) const {
+  std::size_t first = rows_.size;
+  for (std::size_t i = 0; i < k; ++i) first += damped_[i].unit.size();
+  const std::vector<double>& unit = damped_[k].unit;
+  return moved(centreAt(k + 1, parameters), remainders.subspan(first, unit.size()), unit);
+}
+
 Rest::Found Rest::at(std::span<const Recorded> remainders, std::span<const Recorded> parameters,
                      bool withinEnds) const {
   const std::vector<Recorded> v = moved(centreAt(0, parameters), remainders.first(rows_.size), unit_);
@@ -187,16 +202,14 @@ Rest::Found Rest::at(std::span<const Recorded> remainders, std::span<const Recor
   found.state.resize(rows_.coordinates + rows_.speeds, Recorded(0.0));
   found.state.insert(found.state.end(), v.begin() + rows_.coordinates, v.begin() + rows_.coordinates + rows_.ownStates);
   const Recorded turn = Recorded(2.0) * constant<Recorded>(pi());
-  std::span<const Recorded> open = remainders.subspan(rows_.size);
   for (std::size_t k = 0; k < damped_.size(); ++k) {
-    const std::vector<double>& unit = damped_[k].unit;
-    const std::vector<Recorded> w = moved(centreAt(k + 1, parameters), open.first(unit.size()), unit);
-    open = open.subspan(unit.size());
+    const std::vector<Recorded> w = dampedAt(k, remainders, parameters);
     const Recorded re = w[w.size() - 2], size = sqrt(sqr(re) + sqr(w.back()));
     found.known[nameOf("frequency", damped_[k].number)] = size / turn;
     found.known[nameOf("damping", damped_[k].number)] = -re / size;
   }
   if (vibration_) {
+    std::span<const Recorded> open = remainders.subspan(rows_.size);
     const std::vector<Recorded> near = evaluate<Recorded>(vibration_->near, {}, {parameters.begin(), parameters.end()});
     for (std::size_t k = 0; k < vibration_->modes.size(); ++k) {
       Recorded square = near[k] + open[0];

@@ -49,6 +49,14 @@ class Rest {
   const std::vector<Program>& families() const { return families_; }
   /// Of undamped modes; none where none is wanted, or something damps.
   const std::optional<RestVibration>& vibration() const { return vibration_; }
+  const RestRows& rows() const { return rows_; }
+  /// Of each coordinate, at the nominal values: by what its acceleration alone is resisted, kg m² or kg.
+  std::vector<double> ownInertias() const;
+  /// Of wanted modes, where something damps or forces have no potential.
+  const std::vector<DampedMode>& damped() const { return damped_; }
+  /// While recording: w of the kth of these, at these remainders (all there are) and parameters.
+  std::vector<Recorded> dampedAt(std::size_t k, std::span<const Recorded> remainders,
+                                 std::span<const Recorded> parameters) const;
   /// v of the parameters, then of what the position leaves open.
   const Program& position() const { return position_; }
   /// How many numbers all this leaves open: of the families, then of each undamped mode what is added to its ω²,

@@ -24,6 +24,7 @@ constexpr Section sections[] = {{"Requirements", "demands", requirementsSection}
                                 {"What was asked", "asked", askedSection},
                                 {"The machine", "moving", machineSection},
                                 {"Workspace", "workspaces", workspaceSection},
+                                {"Modes", "modes", modesSection},
                                 {"Figures", "numbers", figuresSection},
                                 {"Outputs", "outputs", outputsSection},
                                 {"Membership", "memberships", membershipSection},

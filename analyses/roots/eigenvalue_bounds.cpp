@@ -17,6 +17,8 @@
 #include "analyses/roots/root_family.hpp"
 #include "scalars/algebra/linear_system.hpp"
 #include "scalars/algebra/triangle.hpp"
+#include "scalars/algebra/verified_algebra.hpp"
+#include "scalars/eigen.hpp"
 #include "scalars/evaluation/evaluate.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/program/recorder.hpp"
@@ -27,6 +29,11 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
+using Intervals = Eigen::Matrix<Interval, Eigen::Dynamic, Eigen::Dynamic>;
+
+Intervals exactly(const Matrix& m) {
+  return m.unaryExpr([](double x) { return Interval(x); });
+}
 
 /// Symmetric: its lower triangle.
 class Symmetric {
@@ -53,6 +60,12 @@ class Symmetric {
     Matrix m(size_, size_);
     for (int i = 0; i < size_; ++i)
       for (int j = 0; j < size_; ++j) m(i, j) = midpoint((*this)(i, j));
+    return m;
+  }
+  Intervals whole() const {
+    Intervals m(size_, size_);
+    for (int i = 0; i < size_; ++i)
+      for (int j = 0; j < size_; ++j) m(i, j) = (*this)(i, j);
     return m;
   }
 
@@ -387,6 +400,34 @@ struct EigenvalueBounds::Piece {
   std::optional<double> apartBy(int k, const Residuals& own, const Spread& spread, double delta, double off) const;
   std::optional<double> radiusOf(int k, const Residuals& own, const At& middle) const;
 
+  struct Turned;
+  struct Expansion;
+  class Residual;
+  /// B over a part of the piece, where it is proved; what more there is to know.
+  struct Basis {
+    std::optional<Intervals> all;
+    bool isTight = false, isLoose = false, isHopeless = false;  // what is left over: next to nothing, or most of it
+    int mover = -1;
+  };
+  Turned turnedOn(const Box& part) const;
+  struct Off;
+  struct Beheaded;
+  static std::optional<Off> offOfMany(const Turned& turned, const Expansion& y, const Interval& between);
+  std::optional<Off> offOfOne(const Turned& turned, const Expansion& y, const Interval& range) const;
+  static std::optional<double> movedBy(const Turned& turned, const Expansion& y);
+  static int moverOf(const Turned& turned, const Expansion& y);
+  static bool isMet(const Turned& turned, const Cluster& cluster);
+  /// `known`: of one eigenvalue its range on the part, of more what the others leave them.
+  Basis basisOn(const Box& part, const Cluster& cluster, const std::vector<int>& references,
+                const Interval& known) const;
+  /// The pencil is linear in the quantities: what is known of slopes on the piece is as good on its parts.
+  bool isLinear() const {
+    const auto isKnown = [](const Symmetric& each) {
+      return std::ranges::all_of(each.entries(), [](const Interval& x) { return width(x) <= 0x1p-40 * magnitude(x); });
+    };
+    return hasSlopes && std::ranges::all_of(stiffness, isKnown) && std::ranges::all_of(mass, isKnown);
+  }
+
   /// By how much a quantity moves K and M, about, of what they are in the middle.
   double movedBy(int i) const {
     const double wide = width(parameters[i]);
@@ -677,6 +718,356 @@ EigenvalueBounds::Beside EigenvalueBounds::Piece::beside(const Program& near, co
   return result;
 }
 
+/// The pencil about the middle of a part, in coordinates y of its own eigenvectors T, nearly, and what it changes by.
+struct EigenvalueBounds::Piece::Turned {
+  Matrix t;
+  Intervals stiffness, mass;
+  std::vector<Intervals> byStiffness, byMass;  // of quantities that are wide
+  std::vector<bool> movesMass;
+  std::vector<double> radii;  // of these
+  std::vector<int> which;
+  Symmetric massSpread;  // M is off from that in the middle by no more, both ways
+  double leastMass = 0;  // of M all over the part
+};
+
+/// By how much a vector is off.
+struct EigenvalueBounds::Piece::Off {
+  double norm = std::numeric_limits<double>::infinity();
+  std::vector<double> each;  // component by component, or none
+
+  /// |v e| at most.
+  double along(const Eigen::Matrix<Interval, 1, Eigen::Dynamic>& v) const {
+    Interval square(0.0), sum(0.0);
+    for (Eigen::Index j = 0; j < v.size(); ++j) {
+      const Interval size(magnitude(v[j]));
+      square += sqr(size);
+      if (!each.empty()) sum += size * Interval(each[j]);
+    }
+    const double whole = std::isfinite(norm) ? (sqrt(square) * Interval(norm)).upper() : norm;
+    return each.empty() ? whole : std::min(whole, sum.upper());
+  }
+};
+
+/// Y(p) ≈ E + Σ t_i Y_i and Λ(p) ≈ diag(λ) + Σ t_i L_i, the first powers of K Y = M Y Λ (Rayleigh & Schrödinger), t_i
+/// by how much quantity i differs from the middle; L_i symmetric, since Y stays nearly orthogonal in M.
+struct EigenvalueBounds::Piece::Expansion {
+  Cluster of;
+  Vector lambda;
+  std::vector<Matrix> vectors, squares;
+
+  Expansion(const Turned& turned, const Cluster& cluster) : of(cluster), lambda(cluster.size()) {
+    const auto f = turned.stiffness.rows();
+    const Vector all = turned.stiffness.diagonal().unaryExpr([](const Interval& x) { return midpoint(x); });
+    const int m = of.size();
+    lambda = all.segment(of.first, m);
+    for (std::size_t i = 0; i < turned.radii.size(); ++i) {
+      Matrix y(f, m), l(m, m);
+      for (int c = 0; c < m; ++c)
+        for (int j = 0; j < f; ++j) {
+          const double k = midpoint(turned.byStiffness[i](j, of.first + c)),
+                       inertia = midpoint(turned.byMass[i](j, of.first + c));
+          const bool isOwn = j >= of.first && j <= of.last;
+          y(j, c) = isOwn ? (m > 1 ? -0.5 * inertia : 0.0) : (k - lambda[c] * inertia) / (lambda[c] - all[j]);
+          if (isOwn) l(j - of.first, c) = k - 0.5 * (all[j] + lambda[c]) * inertia;
+        }
+      vectors.push_back(std::move(y));
+      squares.emplace_back(l.selfadjointView<Eigen::Lower>());
+    }
+  }
+};
+
+EigenvalueBounds::Piece::Turned EigenvalueBounds::Piece::turnedOn(const Box& part) const {
+  const At middle = at(middleOf(part));
+  Turned turned{{}, {}, {}, {}, {}, {}, {}, {}, Symmetric(f)};
+  turned.t =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(middle.stiffness.middle(), middle.mass.middle()).eigenvectors();
+  const auto seen = [&](const Symmetric& each) { return congruent(turned.t, each); };
+  const Symmetric inertia = seen(middle.mass);
+  turned.stiffness = seen(middle.stiffness).whole();
+  turned.mass = inertia.whole();
+  Symmetric moved(f);
+  for (int i = 0; i < quantities; ++i) {
+    if (isThin(part[i])) continue;
+    const Interval radius(magnitude(part[i] - Interval(midpoint(part[i]))));
+    turned.which.push_back(i);
+    turned.radii.push_back(radius.upper());
+    turned.byStiffness.push_back(seen(stiffness[i]).whole());
+    turned.byMass.push_back(seen(mass[i]).whole());
+    turned.movesMass.push_back(!mass[i].isZero());
+    moved.add(radius, ofMass[i].below);
+    moved.add(radius, ofMass[i].above);
+  }
+  turned.massSpread = seen(moved);
+  turned.leastMass = (Interval(1.0) - Interval(normOf(minusUnity(inertia))) -
+                      Interval(moved.isZero() ? 0.0 : largestOf(turned.massSpread)))
+                         .lower();
+  return turned;
+}
+
+/// ‖K Y − M Y Λ‖ in Frobenius' norm, at most: powers of t up to the third.
+class EigenvalueBounds::Piece::Residual {
+ public:
+  Residual(const Turned& turned, const Expansion& y)
+      : turned_(turned),
+        first_(y.of.first),
+        lambda_(exactly(y.lambda.asDiagonal())),
+        sum_(Intervals::Constant(turned.t.rows(), y.of.size(), Interval(0.0))) {
+    for (std::size_t i = 0; i < turned.radii.size(); ++i) {
+      vectors_.push_back(exactly(y.vectors[i]));
+      squares_.push_back(exactly(y.squares[i]));
+      scaled_.push_back(vectors_[i] * lambda_);
+    }
+    add(Interval(1.0), own(turned.stiffness) - own(turned.mass) * lambda_);
+    for (std::size_t i = 0; i < vectors_.size(); ++i) {
+      add(Interval(turned.radii[i]), firstPower(i));
+      for (std::size_t l = 0; l <= i; ++l) addHigher(i, l);
+    }
+  }
+
+  const Interval& at(Eigen::Index row) const { return sum_(row, 0); }
+  double norm() const {
+    Interval square(0.0);
+    for (Eigen::Index k = 0; k < sum_.size(); ++k) square += sqr(sum_(k));
+    return sqrt(square).upper();
+  }
+
+ private:
+  Intervals own(const Intervals& a) const { return a.middleCols(first_, lambda_.cols()); }
+  void add(const Interval& factor, const Intervals& term) {
+    for (Eigen::Index k = 0; k < term.size(); ++k) sum_(k) += factor * Interval(magnitude(term(k)));
+  }
+  Intervals firstPower(std::size_t i) const {
+    Intervals term = own(turned_.byStiffness[i]) + turned_.stiffness * vectors_[i] - turned_.mass * scaled_[i] -
+                     own(turned_.mass) * squares_[i];
+    if (turned_.movesMass[i]) term -= own(turned_.byMass[i]) * lambda_;
+    return term;
+  }
+  Intervals secondPower(std::size_t i, std::size_t l) const {
+    Intervals term = turned_.byStiffness[i] * vectors_[l] - turned_.mass * Intervals(vectors_[i] * squares_[l]);
+    if (turned_.movesMass[i]) term -= turned_.byMass[i] * scaled_[l] + own(turned_.byMass[i]) * squares_[l];
+    return term;
+  }
+  /// t_i t_l, and these with any other.
+  void addHigher(std::size_t i, std::size_t l) {
+    const Interval both = Interval(turned_.radii[i]) * Interval(turned_.radii[l]);
+    add(both, i == l ? secondPower(i, i) : Intervals(secondPower(i, l) + secondPower(l, i)));
+    if (!turned_.movesMass[i] && !turned_.movesMass[l]) return;
+    for (std::size_t k = 0; k < vectors_.size(); ++k) {
+      Intervals third = turned_.byMass[i] * Intervals(vectors_[l] * squares_[k]);
+      if (i != l) third += turned_.byMass[l] * Intervals(vectors_[i] * squares_[k]);
+      add(both * Interval(turned_.radii[k]), third);
+    }
+  }
+
+  const Turned& turned_;
+  int first_;
+  Intervals lambda_, sum_;
+  std::vector<Intervals> vectors_, squares_, scaled_;
+};
+
+/// By how much eigenvalues of Λ move at most: −B_i ⪯ L_i ⪯ A_i, so Λ differs by no more than Σ r_i (A_i + B_i).
+std::optional<double> EigenvalueBounds::Piece::movedBy(const Turned& turned, const Expansion& y) {
+  const int m = y.of.size();
+  Symmetric sum(m);
+  for (std::size_t i = 0; i < turned.radii.size(); ++i) {
+    Symmetric l(m);
+    for (int c = 0; c < m; ++c)
+      for (int d = 0; d <= c; ++d) l(c, d) = Interval(y.squares[i](c, d));
+    const std::optional<LoewnerBounds> bounds = loewnerBounds(l);
+    if (!bounds) return {};
+    sum.add(Interval(turned.radii[i]), bounds->below);
+    sum.add(Interval(turned.radii[i]), bounds->above);
+  }
+  return sum.isZero() ? 0.0 : largestOf(sum);
+}
+
+/// By how much the eigenvectors' span leaves Y at most. With U the others' eigenvectors, orthonormal in M, and all of
+/// their λ at least g from those of Λ: from Uᵀ(K Y − M Y Λ) = Λ_U A − A Λ, A = Uᵀ M Y, follows ‖A‖ ≤ ‖K Y − M Y Λ‖/(√μ
+/// g) (C. Davis & W. M. Kahan, SIAM J. Numer. Anal. 7, 1970), and Y − U A lies in the span, ‖U A‖ ≤ ‖A‖/√μ, M ≥ μ.
+/// Nothing where no such g is proved. `between`: of the others' λ, the least above and the greatest below.
+std::optional<EigenvalueBounds::Piece::Off> EigenvalueBounds::Piece::offOfMany(const Turned& turned, const Expansion& y,
+                                                                               const Interval& between) {
+  if (!(turned.leastMass > 0)) return {};
+  if (y.of.size() == turned.t.rows()) return Off{0.0, {}};
+  const std::optional<double> moved = movedBy(turned, y);
+  if (!moved) return {};
+  const Interval own = Interval(y.lambda.minCoeff(), y.lambda.maxCoeff()) + Interval(-*moved, *moved);
+  double apart = std::numeric_limits<double>::infinity();
+  if (std::isfinite(between.lower())) apart = (Interval(own.lower()) - Interval(between.lower())).lower();
+  if (std::isfinite(between.upper()))
+    apart = std::min(apart, (Interval(between.upper()) - Interval(own.upper())).lower());
+  if (!(apart > 0)) return {};
+  return Off{(Interval(Residual(turned, y).norm()) / (Interval(turned.leastMass) * Interval(apart))).upper(), {}};
+}
+
+/// (K − λ M) beside what is diag(Δ) in the middle, all over the part and for all of λ's range: by D^½ (±1 + F) D^½ with
+/// ‖F‖ ≤ q, D = |Δ|, row and column k left out.
+struct EigenvalueBounds::Piece::Beheaded {
+  std::vector<double> size;  // of Δ; 0 of k
+  double q = std::numeric_limits<double>::infinity();
+
+  Beheaded(const Piece& piece, const Turned& turned, int k, double lambda, double range) {
+    const int f = piece.f;
+    Matrix d = Matrix::Zero(f, std::max(f - 1, 0));
+    Symmetric middle(f), moved(f), mass = turned.massSpread;
+    for (int i = 0; i < f; ++i)
+      for (int j = 0; j <= i; ++j) {
+        middle(i, j) = turned.stiffness(i, j) - Interval(lambda) * turned.mass(i, j);
+        mass(i, j) += turned.mass(i, j);
+      }
+    for (int j = 0, column = 0; j < f; ++j) {
+      size.push_back(j == k ? 0.0 : std::abs(midpoint(middle(j, j))));
+      if (j != k) d(j, column++) = 1 / std::sqrt(size.back());
+    }
+    if (!d.allFinite()) return;
+    for (std::size_t i = 0; i < turned.radii.size(); ++i) {
+      const LoewnerBounds bounds = piece.slopeBounds(turned.which[i], lambda);
+      moved.add(Interval(turned.radii[i]), bounds.below);
+      moved.add(Interval(turned.radii[i]), bounds.above);
+    }
+    if (f == 1) q = 0;
+    if (f == 1) return;
+    Symmetric rest = congruent(d, middle);
+    for (int i = 0; i < f - 1; ++i) rest(i, i) -= Interval(midpoint(rest(i, i)) < 0 ? -1.0 : 1.0);
+    q = (Interval(normOf(rest)) + Interval(largestOf(congruent(d, congruent(turned.t, moved)))) +
+         Interval(range) * Interval(largestOf(congruent(d, mass))))
+            .upper();
+  }
+};
+
+/// By how much the eigenvector x, x_k = 1, of one eigenvalue λ leaves Y at most: with B = K − λ M and e = x − Y from
+/// B x = 0, without row and column k, B_J e_J = −(B Y)_J, so |e_j| √D_j ≤ n_j + q ‖n‖/(1 − q), n_j = |(B Y)_j|/√D_j;
+/// B_J is regular, so that λ is simple. (B Y)_J = (K Y − M Y Λ)_J − δ (M Y)_J, and δ = λ − Λ is bounded by λ's range
+/// at first, then by row k. Nothing where q is no less than 1.
+std::optional<EigenvalueBounds::Piece::Off> EigenvalueBounds::Piece::offOfOne(const Turned& turned, const Expansion& y,
+                                                                              const Interval& range) const {
+  if (!isBounded(range)) return {};
+  const int k = y.of.first;
+  const double lambda = y.lambda[0], reach = magnitude(range - Interval(lambda));
+  const Beheaded rest(*this, turned, k, lambda, reach);
+  if (!(rest.q < 1)) return {};
+  const Residual residual(turned, y);
+  // |M Y|, |B| of row k and |Λ − λ| at most.
+  std::vector<Interval> inertia, row;
+  Interval moved(0.0);
+  for (int j = 0; j < f; ++j) {
+    inertia.emplace_back(magnitude(turned.mass(j, k)));
+    row.emplace_back(magnitude(turned.stiffness(k, j) - Interval(lambda) * turned.mass(k, j)));
+    row.back() += Interval(reach) * Interval(magnitude(turned.mass(k, j)));
+  }
+  Interval own(0.0);  // by how much (M Y)_k changes
+  for (std::size_t i = 0; i < turned.radii.size(); ++i) {
+    const Interval radius(turned.radii[i]);
+    const Intervals vector = exactly(y.vectors[i]), first = turned.byMass[i].col(k) + turned.mass * vector;
+    moved += radius * Interval(std::abs(y.squares[i](0, 0)));
+    for (int j = 0; j < f; ++j) {
+      Interval more(magnitude(first(j)));
+      if (turned.movesMass[i])
+        for (std::size_t l = 0; l < turned.radii.size(); ++l)
+          more += Interval(turned.radii[l]) *
+                  Interval(magnitude((turned.byMass[i].row(j) * exactly(y.vectors[l])).value()));
+      inertia[j] += radius * more;
+      if (j == k) own += radius * more;
+      row[j] += radius * Interval(magnitude(turned.byStiffness[i](k, j) - Interval(lambda) * turned.byMass[i](k, j))) +
+                radius * Interval(reach) * Interval(magnitude(turned.byMass[i](k, j)));
+    }
+  }
+  const Interval least = Interval(turned.mass(k, k).lower()) - Interval(own.upper());
+  Interval delta(magnitude(range - (Interval(lambda) + Interval(-moved.upper(), moved.upper()))));
+  Off off;
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Interval> n(f, Interval(0.0));
+    Interval square(0.0);
+    for (int j = 0; j < f; ++j) {
+      if (j == k) continue;
+      n[j] = (Interval(residual.at(j).upper()) + delta * inertia[j]) / sqrt(Interval(rest.size[j]));
+      square += sqr(n[j]);
+    }
+    const Interval others = Interval(rest.q) * sqrt(square) / (Interval(1.0) - Interval(rest.q));
+    off.each.assign(f, 0.0);
+    Interval back(residual.at(k).upper());
+    for (int j = 0; j < f; ++j) {
+      if (j == k) continue;
+      off.each[j] = ((n[j] + others) / sqrt(Interval(rest.size[j]))).upper();
+      back += row[j] * Interval(off.each[j]);
+    }
+    if (!(least.lower() > 0)) break;
+    delta = Interval(std::min(delta.upper(), (back / least).upper()));
+  }
+  return off;
+}
+
+/// Of Φ T Y the basis that is the identity in the references: B = B_0 + (W − B_0 W_R) Y (W_R Y)⁻¹, W = Φ T.
+EigenvalueBounds::Piece::Basis EigenvalueBounds::Piece::basisOn(const Box& part, const Cluster& cluster,
+                                                                const std::vector<int>& references,
+                                                                const Interval& known) const {
+  const Turned turned = turnedOn(part);
+  Basis basis;
+  if (!turned.t.allFinite()) return basis;
+  const Expansion y(turned, cluster);
+  basis.mover = moverOf(turned, y);
+  const std::optional<Off> off = cluster.size() == 1 ? offOfOne(turned, y, known) : offOfMany(turned, y, known);
+  basis.isHopeless = isMet(turned, cluster);
+  if (!off) return basis;
+  const int m = cluster.size();
+  const Intervals w = exactly(pencil.basis) * exactly(turned.t);
+  Intervals seen(m, f);
+  for (int r = 0; r < m; ++r) seen.row(r) = w.row(references[r]);
+  // v Y over the part, and what is left over of it.
+  double spread = 0, loss = 0;
+  const auto along = [&](const Intervals& v) {
+    Intervals sum = v.middleCols(cluster.first, m);
+    for (std::size_t i = 0; i < turned.radii.size(); ++i)
+      sum += Interval(-turned.radii[i], turned.radii[i]) * Intervals(v * exactly(y.vectors[i]));
+    for (int row = 0; row < v.rows(); ++row) {
+      const double left = off->along(v.row(row));
+      for (int c = 0; c < m; ++c) {
+        spread = std::max(spread, 0.5 * width(sum(row, c)));
+        sum(row, c) += Interval(-left, left);
+        loss = std::max(loss, left);
+      }
+    }
+    return sum;
+  };
+  const Verified<Intervals> inverse = verifiedInverse(along(seen));
+  if (!inverse) return basis;
+  const auto middle = [](const Intervals& a) {
+    return Matrix(a.unaryExpr([](const Interval& x) { return midpoint(x); }));
+  };
+  const Matrix b = middle(w.middleCols(cluster.first, m)) * middle(seen.middleCols(cluster.first, m)).inverse();
+  spread = loss = 0;
+  Intervals all = exactly(b) + along(w - exactly(b) * seen) * *inverse;
+  for (int r = 0; r < m; ++r)
+    for (int c = 0; c < m; ++c) all(references[r], c) = Interval(r == c ? 1.0 : 0.0);
+  basis.all = std::move(all);
+  basis.isTight = loss <= 0.1 * spread || loss <= 1e-12;
+  basis.isLoose = !basis.isTight && loss > spread;
+  return basis;
+}
+
+/// The quantity that moves Y and Λ most.
+int EigenvalueBounds::Piece::moverOf(const Turned& turned, const Expansion& y) {
+  int mover = -1;
+  double most = 0;
+  const double size = std::max(y.lambda.cwiseAbs().maxCoeff(), 0x1p-1000);
+  for (std::size_t i = 0; i < turned.radii.size(); ++i) {
+    const double by = turned.radii[i] * (y.vectors[i].norm() + y.squares[i].norm() / size);
+    if (!(by > most)) continue;
+    most = by;
+    mover = turned.which[i];
+  }
+  return mover;
+}
+
+/// Whether eigenvalues of a cluster meet others in the middle, to rounding.
+bool EigenvalueBounds::Piece::isMet(const Turned& turned, const Cluster& cluster) {
+  constexpr double nothing = 1e-9;
+  const auto square = [&](int i) { return midpoint(turned.stiffness(i, i)); };
+  const auto meet = [&](int i) { return !(square(i + 1) - square(i) > nothing * std::abs(square(i + 1))); };
+  return (cluster.first > 0 && meet(cluster.first - 1)) || (cluster.last + 1 < turned.t.rows() && meet(cluster.last));
+}
+
 struct EigenvalueBounds::Parts {
   Pencil pencil;
   std::optional<Pencil> unit;  // where slopes of M do not tell that it is positive
@@ -780,6 +1171,57 @@ EigenvalueBounds::Beside EigenvalueBounds::beside(const Program& near, const Pro
     result.ranges[k] = intersection(result.ranges[k], all.ranges[k]);
   }
   return result;
+}
+
+/// Between these are those of the cluster, over a part: the greatest of the others below and the least above.
+Interval EigenvalueBounds::roomOf(const Cluster& cluster, const Box& part, int negatives) const {
+  const int f = parts_->pencil.f;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double below = -infinite, above = infinite;
+  if (cluster.first > negatives) below = ranges({cluster.first - 1}, part)[0].upper();
+  if (cluster.first == negatives && negatives > 0) below = 0;
+  if (cluster.last + 1 < f) above = ranges({cluster.last + 1}, part)[0].lower();
+  return below <= above ? Interval(below, above) : Interval(0.0);
+}
+
+std::optional<std::vector<Interval>> EigenvalueBounds::basisOf(const Cluster& cluster,
+                                                               const std::vector<int>& references, int negatives,
+                                                               const std::atomic<bool>* cancelled) const {
+  if (!parts_->isKnown) return {};
+  const Piece& whole = *parts_->whole;
+  const bool isLinear = whole.isLinear();
+  const double size = whole.f, wide = whole.quantities, cost = size * size * cluster.size() * (1 + wide * wide);
+  const double most = isLinear ? std::clamp(2e7 / cost, 1.0, 2048.0) : Parts::mostPieces(parts_->pencil, 256);
+  double tried = 0, refined = 0;
+  std::optional<Intervals> all;
+  std::vector<Box> open{whole.parameters};
+  while (!open.empty()) {
+    const Box part = std::move(open.back());
+    open.pop_back();
+    if (cancelled != nullptr && *cancelled) return {};
+    std::optional<Piece> fresh;
+    if (!isLinear && tried > 0) fresh.emplace(parts_->pencil, part);
+    const Piece& piece = fresh ? *fresh : whole;
+    const Piece::Basis own = piece.hasSlopes ? piece.basisOn(part, cluster, references,
+                                                             cluster.size() == 1 ? ranges({cluster.first}, part)[0]
+                                                                                 : roomOf(cluster, part, negatives))
+                                             : Piece::Basis{{}, false, false, false, piece.mover()};
+    const bool isInVain = own.isTight || refined >= (own.isLoose ? most / 4 : most / 16);
+    const bool mayRefine = own.mover >= 0 && tried < most && !(own.all && isInVain);
+    if (!own.all && (own.isHopeless || !mayRefine)) return {};
+    ++tried;
+    if (mayRefine) {
+      refined += own.all ? 1 : 0;
+      for (Box& half : Parts::halvesOf(part, own.mover)) open.push_back(std::move(half));
+      continue;
+    }
+    for (Eigen::Index k = 0; all && k < all->size(); ++k) (*all)(k) = hull((*all)(k), (*own.all)(k));
+    if (!all) all = own.all;
+  }
+  std::vector<Interval> rows;
+  for (Eigen::Index i = 0; i < all->rows(); ++i)
+    for (Eigen::Index c = 0; c < all->cols(); ++c) rows.push_back((*all)(i, c));
+  return rows;
 }
 
 }  // namespace gamut

@@ -13,8 +13,10 @@
 // pieces.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "scalars/interval.hpp"
@@ -46,9 +48,24 @@ class EigenvalueBounds {
   Beside beside(const Program& near, const Program& shapes, const std::vector<int>& numbers,
                 const std::vector<Interval>& ranges) const;
 
+  /// Eigenvalues of numbers from `first` to `last`, beside all others.
+  struct Cluster {
+    int first, last;
+    int size() const { return last - first + 1; }
+    friend bool operator==(const Cluster&, const Cluster&) = default;
+  };
+  /// What the eigenvectors Φ y of these span, for all parameters: the basis of it that is the identity in so many
+  /// `references`, components of Φ y; row by row, all components. Nothing where it is not proved that they stay apart
+  /// from all others and that there is such a basis, or once `cancelled`. `negatives`: how many eigenvalues are below
+  /// zero.
+  std::optional<std::vector<Interval>> basisOf(const Cluster& cluster, const std::vector<int>& references,
+                                               int negatives, const std::atomic<bool>* cancelled = nullptr) const;
+
  private:
   struct Piece;
   struct Parts;
+  Interval roomOf(const Cluster& cluster, const Box& part, int negatives) const;
+
   std::unique_ptr<const Parts> parts_;
 };
 

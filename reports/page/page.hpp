@@ -66,6 +66,9 @@ std::string machineSection(const Report& report);
 /// The map of what outputs can reach; empty where nobody asked for it.
 std::string workspaceSection(const Report& report);
 
+/// Shapes of modes; empty where nobody asked for them.
+std::string modesSection(const Report& report);
+
 /// One row an output: what the analyses found at the last time that all of them reached. Then what each of them cost.
 std::string figuresSection(const Report& report);
 

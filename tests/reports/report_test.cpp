@@ -19,6 +19,7 @@
 #include "reports/sections/contribution.hpp"
 #include "scalars/interval.hpp"
 #include "studies/analyses/equilibria.hpp"
+#include "studies/analyses/modes.hpp"
 #include "studies/analyses/postures.hpp"
 #include "studies/analyses/workspace.hpp"
 #include "tests/reports/example_results.hpp"
@@ -80,6 +81,31 @@ TEST(Report, ListsWhatIsFoundBesideTheAnswers) {
       renderReport(results),
       AllOf(HasSubstr("<h3>Also proved: equilibria</h3>"), HasSubstr("<li>1 position in the region, and no other"),
             HasSubstr("<li>unstable: slide&lt;1&gt;.displacement in [-0.5, -0.25], hinge.angle in [0.25, 0.25]")));
+}
+
+TEST(Report, HasAColumnForEachShape) {
+  Results results = example::pendulum();
+  EXPECT_THAT(renderReport(results), Not(HasSubstr("<h2>Modes</h2>")));
+  ModesResult& found = results.of<ModesResult>();
+  found.present = true;
+  found.coordinates = "slide<1>.displacement, hinge.angle";
+  found.coordinate = {1, 2};
+  found.number = {1, 2};
+  found.mode = {1, 2};
+  found.first = {1, 2};
+  found.last = {1, 3};
+  found.reference = {2, 1};
+  found.slowest = {0.5, 2};
+  found.fastest = {0.75, 2.5};
+  found.lower = Grid({2, 2}, {-0.5, 1, 1, 0.125});
+  found.upper = Grid({2, 2}, {-0.25, 1, 1, 0.25});
+  found.imaginaryLower = Grid({2, 2}, {0, 0, 0, -0.5});
+  found.imaginaryUpper = Grid({2, 2}, {0, 0, 0, 0.5});
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page, AllOf(HasSubstr("<h2>Modes</h2>"), HasSubstr("mode 1, [0.5, 0.75] Hz"),
+                          HasSubstr("mode 2 of 2 to 3, which are not told apart, [2, 2.5] Hz"),
+                          HasSubstr("slide&lt;1&gt;.displacement"), HasSubstr("[-0.5, -0.25]"),
+                          HasSubstr("[0.125, 0.25] + [-0.5, 0.5] i")));
 }
 
 TEST(Report, TellsOfPostures) {

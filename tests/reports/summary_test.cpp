@@ -65,19 +65,34 @@ TEST(JsonSummary, TellsEveryPositionInTheOrderOfItsCoordinates) {
                                                     "outputs", "reached", "upper", "why"));
 }
 
+TEST(JsonSummary, TellsShapesOfModes) {
+  const Json json = Json::parse(jsonSummary(sampleResults(), findVerdict(sampleResults())))["modes"];
+  EXPECT_THAT(keysOf(json), ElementsAre("coordinates", "cpu", "first", "frequency_lower", "frequency_upper",
+                                        "imaginary_lower", "imaginary_upper", "last", "lower", "mode", "outputs",
+                                        "reached", "reference", "upper", "why"));
+  EXPECT_EQ(json["lower"], Json::parse("[[-0.5, 1.0], [1.0, 0.0]]"));
+  EXPECT_EQ(json["imaginary_upper"], Json::parse("[[0.25, 0.0], [0.0, 0.0]]"));
+  EXPECT_EQ(json["reference"], Json::parse("[2, 1]"));
+  EXPECT_THAT(textSummary(sampleResults()),
+              HasSubstr("mode 1, [0.5, 0.75] Hz: hinge.angle [-0.5, -0.25] + [0.125, 0.25] i, slide.displacement 1"));
+  EXPECT_THAT(textSummary(sampleResults()),
+              HasSubstr("mode 3 of 2 to 3, which are not told apart, [2, 2] Hz: hinge.angle 1, slide.displacement 0"));
+}
+
 TEST(JsonSummary, HasTheDocumentedKeys) {
   const std::string text = jsonSummary(sampleResults(), findVerdict(sampleResults()), {"run.h5", "run.html", 0.0625});
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
-  EXPECT_THAT(keysOf(json), ElementsAre("advice", "alpha_cuts", "assumptions", "cost", "dependence", "derivatives",
-                                        "distribution", "enclosure", "envelope", "equilibria", "excursion", "files",
-                                        "horizon", "integrated", "limits", "outputs", "overestimation", "postures",
-                                        "reached", "requirements", "samples", "sensitivity", "shortfall", "statistics",
-                                        "stopped", "tightness", "verdict", "version", "why", "witness", "workspace"));
+  EXPECT_THAT(keysOf(json),
+              ElementsAre("advice", "alpha_cuts", "assumptions", "cost", "dependence", "derivatives", "distribution",
+                          "enclosure", "envelope", "equilibria", "excursion", "files", "horizon", "integrated",
+                          "limits", "modes", "outputs", "overestimation", "postures", "reached", "requirements",
+                          "samples", "sensitivity", "shortfall", "statistics", "stopped", "tightness", "verdict",
+                          "version", "why", "witness", "workspace"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("advice", "derivatives", "distribution", "equations", "equilibria",
-                                                "fuzzy", "interval", "memory", "postures", "report", "requirements",
-                                                "stochastic", "total", "witness", "workspace"));
+                                                "fuzzy", "interval", "memory", "modes", "postures", "report",
+                                                "requirements", "stochastic", "total", "witness", "workspace"));
   EXPECT_THAT(keysOf(json["limits"]),
               ElementsAre("enclosure_memory", "enclosure_time", "memory", "sample_time", "time"));
   EXPECT_EQ(json["verdict"], wordOf(findVerdict(sampleResults()).word));

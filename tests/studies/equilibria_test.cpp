@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <complex>
 #include <functional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "mechanics/rest_stability.hpp"
 #include "scalars/evaluation/evaluate.hpp"
 #include "studies/analyses/equilibria.hpp"
+#include "studies/analyses/modes.hpp"
 #include "studies/machine.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
@@ -781,6 +783,228 @@ TEST(Equilibria, SayWhatHasNone) {
   EXPECT_THAT(refusalOf(studyOf("gravity = [0, \"-9.81\", 0]\n" + hinge("A", "inertial", "K", "\"90 deg\"") + bob,
                                 asked + output("frequency.1"))),
               HasSubstr("at rest 0 of 1 modes oscillate"));
+}
+
+const std::string shapes = "[modes]\nshapes = true\n";
+
+/// x of (K − λ M) x = 0, M diagonal, by inverse iteration (H. Wielandt) with pivots.
+Vector shapeOf(const Dense& stiffness, const Vector& masses, const Precise& square) {
+  const std::size_t n = masses.size();
+  Vector x(n);
+  for (std::size_t i = 0; i < n; ++i) x[i] = Precise(1) / (i + 1);
+  for (int round = 0; round < 3; ++round) {
+    Dense m = stiffness;
+    for (std::size_t i = 0; i < n; ++i) {
+      m[i][i] -= (square + square * Precise("1e-27")) * masses[i];
+      m[i].push_back(x[i]);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto pivot = std::ranges::max_element(m.begin() + static_cast<std::ptrdiff_t>(i), m.end(), {},
+                                                  [&](const Vector& row) { return Precise(abs(row[i])); });
+      std::swap(m[i], *pivot);
+      for (std::size_t j = i + 1; j < n; ++j) {
+        const Precise factor = m[j][i] / m[i][i];
+        for (std::size_t l = i; l <= n; ++l) m[j][l] -= factor * m[i][l];
+      }
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      x[i] = m[i][n];
+      for (std::size_t l = i + 1; l < n; ++l) x[i] -= m[i][l] * x[l];
+      x[i] /= m[i][i];
+    }
+    Precise most(0);
+    for (const Precise& each : x) most = std::max(most, Precise(abs(each)));
+    for (Precise& each : x) each /= most;
+  }
+  return x;
+}
+
+/// Of a mode's true shape, φ = Σ φ_r (the shape that is 1 at r), over all modes that it is not told apart from: which
+/// all are among those that were found.
+void expectHeld(const ModesResult& found, int mode, const Vector& shape) {
+  const auto own = std::ranges::find(found.mode, mode) - found.mode.begin();
+  ASSERT_LT(own, std::ssize(found.mode)) << found.why;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    Precise lower(0), upper(0);
+    for (std::size_t k = 0; k < found.number.size(); ++k) {
+      if (found.mode[k] < found.first[own] || found.mode[k] > found.last[own]) continue;
+      const Precise& share = shape[found.reference[k] - 1];
+      const Precise one = share * found.lower(k, i), other = share * found.upper(k, i);
+      lower += std::min(one, other);
+      upper += std::max(one, other);
+      EXPECT_EQ(found.imaginaryLower(k, i), 0);
+      EXPECT_EQ(found.imaginaryUpper(k, i), 0);
+    }
+    const Precise rounding = abs(shape[i]) * Precise("1e-24");  // of the reference's iteration
+    EXPECT_TRUE(lower - rounding <= shape[i] && shape[i] <= upper + rounding)
+        << "mode " << mode << " coordinate " << i << ": " << shape[i].str(20) << " in " << lower.str(20) << ", "
+        << upper.str(20);
+  }
+}
+
+/// Coordinates of the chain are its springs' extensions.
+Vector extensionsOf(const Vector& places) {
+  Vector all = places;
+  for (std::size_t i = all.size(); i-- > 1;) all[i] -= all[i - 1];
+  return all;
+}
+
+/// So many masses, of whose modes the slowest are alone, so many of them.
+class ShapesOfChains : public ::testing::TestWithParam<std::tuple<int, const char*, int>> {};
+
+TEST_P(ShapesOfChains, AreThoseOfTheirPencils) {
+  const auto [many, tolerance, alone] = GetParam();
+  const Machine machine = machineOf(chain(many, tolerance, frequencies(many) + shapes, "\"interval\""));
+  const Results results = run(machine, {});
+  const ModesResult& found = results.of<ModesResult>();
+  ASSERT_GE(found.number.size(), alone) << found.why;
+  EXPECT_EQ(found.why == "", found.number.size() == many);
+  for (std::size_t k = 0; k < found.number.size(); ++k) {
+    if (static_cast<int>(k) < alone) EXPECT_EQ(found.first[k], found.last[k]) << k + 1;
+    EXPECT_EQ(found.lower(k, found.reference[k] - 1), 1);
+    EXPECT_EQ(found.upper(k, found.reference[k] - 1), 1);
+  }
+  Points points;
+  for (int number = 0; number < 10; ++number) {
+    const Dense stiffness = stiffnessOf(point(points, machine, number));
+    for (std::size_t k = 0; k < found.number.size(); ++k) {
+      const int mode = static_cast<int>(found.mode[k]);
+      const Precise square = squareOf(stiffness, chainMasses(many), mode);
+      expectHeld(found, mode, extensionsOf(shapeOf(stiffness, chainMasses(many), square)));
+      EXPECT_TRUE(Precise(found.slowest[k]) <= sqrt(square) / turn + Precise("1e-20"));
+      EXPECT_TRUE(Precise(found.fastest[k]) >= sqrt(square) / turn - Precise("1e-20"));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfMasses, ShapesOfChains,
+                         ::testing::Values(std::tuple{1, "± 15 %", 1}, std::tuple{2, "± 1 %", 2},
+                                           std::tuple{2, "± 15 %", 2}, std::tuple{3, "± 5 %", 3},
+                                           std::tuple{3, "± 15 %", 2}, std::tuple{10, "± 1 %", 10},
+                                           std::tuple{10, "± 5 %", 7}));
+
+/// With masses that are uncertain too.
+TEST(Equilibria, HaveShapesOfUncertainMasses) {
+  constexpr int many = 3;
+  const Machine machine = machineOf(chain(many, "± 5 %", frequencies(many) + shapes, "\"interval\"", "± 5 %"));
+  const Results results = run(machine, {});
+  Points points;
+  for (int number = 0; number < 20; ++number) {
+    const Vector p = point(points, machine, number), masses(p.begin() + many, p.end());
+    const Dense stiffness = stiffnessOf({p.begin(), p.begin() + many});
+    for (int k = 1; k <= many; ++k)
+      expectHeld(results.of<ModesResult>(), k,
+                 extensionsOf(shapeOf(stiffness, masses, squareOf(stiffness, masses, k))));
+  }
+}
+
+/// As tight as first powers of the deviations: twice as wide for twice the tolerance, and not wider than corners by
+/// much.
+TEST(Equilibria, HaveShapesAboutAsTightAsCorners) {
+  constexpr int many = 3;
+  for (const char* tolerance : {"± 0.1 %", "± 1 %"}) {
+    const Machine machine = machineOf(chain(many, tolerance, frequencies(many) + shapes, "\"interval\""));
+    const Results results = run(machine, {});
+    const ModesResult& found = results.of<ModesResult>();
+    const Box box = freeBox(machine, machine.box);
+    for (int k = 0; k < many; ++k)
+      for (int i = 0; i < many; ++i) {
+        Precise least(1e9), most(-1e9);
+        for (int corner = 0; corner < 1 << many; ++corner) {
+          Vector p;
+          for (int j = 0; j < many; ++j) p.emplace_back((corner >> j) % 2 == 0 ? box[j].lower() : box[j].upper());
+          const Dense stiffness = stiffnessOf(p);
+          const Vector own =
+              extensionsOf(shapeOf(stiffness, chainMasses(many), squareOf(stiffness, chainMasses(many), k + 1)));
+          const Precise value = own[i] / own[found.reference[k] - 1];
+          least = std::min(least, value);
+          most = std::max(most, value);
+        }
+        EXPECT_LE(Precise(found.upper(k, i) - found.lower(k, i)), Precise(1.2) * (most - least) + Precise(1e-12))
+            << tolerance << k << i;
+      }
+  }
+}
+
+TEST(Equilibria, OfASquareHaveTwoShapesThatAreNotToldApart) {
+  std::string parameters = "parameters = { ", elements, uncertainties;
+  for (int i = 0; i < 4; ++i) {
+    const std::string own = std::to_string(i), next = std::to_string((i + 1) % 4), last = std::to_string((i + 3) % 4),
+                      place = "*Z" + own + ".displacement";
+    parameters += (i > 0 ? ", k" : "k") + own + " = 100";
+    elements += element("prismatic", "Z" + own, "from = \"inertial\"\nto = \"P" + own + "\"\naxis = \"z\"") +
+                element("mass", "m" + own, "at = \"P" + own + "\"\nmass = 1") +
+                element("joint-force", "F" + own,
+                        "joint = \"Z" + own + "\"\nforce = \"(-k" + own + place + " - 40" + place + " + 20*Z" + next +
+                            ".displacement + 20*Z" + last + ".displacement)*(1 N/m)\"");
+    uncertainties += uncertain("k" + own, "± 5 %");
+  }
+  const Machine machine =
+      machineOf(studyOf(parameters + " }\n" + elements + uncertainties, frequencies(4) + shapes, "\"interval\""));
+  const Results results = run(machine, {});
+  const ModesResult& found = results.of<ModesResult>();
+  ASSERT_EQ(found.number.size(), 4);
+  EXPECT_EQ(found.first, (std::vector<std::int64_t>{1, 2, 2, 4}));
+  EXPECT_EQ(found.last, (std::vector<std::int64_t>{1, 3, 3, 4}));
+  EXPECT_THAT(found.told()[1], HasSubstr("mode 2 of 2 to 3, which are not told apart"));
+  Points points;
+  for (int number = 0; number < 20; ++number) {
+    const Vector p = point(points, machine, number);
+    Dense stiffness(4, Vector(4, Precise(0)));
+    for (int i = 0; i < 4; ++i) {
+      stiffness[i][i] += p[i] + 40;
+      stiffness[i][(i + 1) % 4] -= 20;
+      stiffness[(i + 1) % 4][i] -= 20;
+    }
+    for (int k = 1; k <= 4; ++k)
+      expectHeld(found, k, shapeOf(stiffness, Vector(4, Precise(1)), squareOf(stiffness, Vector(4, Precise(1)), k)));
+  }
+}
+
+/// Two masses with dampers that are not in proportion to springs: s of det(s² M + s C + K) = 0 by Newton's steps.
+TEST(Equilibria, HaveComplexShapesWhereTheyAreDamped) {
+  using Complex = std::complex<Precise>;
+  const auto text = [](const std::string& tolerance) {
+    return chain(2, tolerance,
+                 element("joint-spring", "D1", "joint = \"J1\"\ndamping = \"c\"") + frequencies(2) + shapes,
+                 "\"interval\"");
+  };
+  std::string study = text("± 2 %");
+  study.replace(study.find("parameters = { "), 15, "parameters = { c = \"1 N s/m\", ");
+  const Machine machine = machineOf(study + uncertain("c", "± 10 %"));
+  const Results results = run(machine, {});
+  const ModesResult& found = results.of<ModesResult>();
+  ASSERT_EQ(found.number.size(), 2) << found.why;
+  Points points;
+  for (int number = 0; number < 20; ++number) {
+    const Vector p = point(points, machine, number);
+    const Precise &k1 = p[0], &k2 = p[1], &c = p[2], m1("1.1"), m2("1.2");
+    for (int mode = 0; mode < 2; ++mode) {
+      // (m1 s² + c s + k1 + k2) (m2 s² + k2) − k2²
+      Complex s(Precise(0), Precise((found.slowest[mode] + found.fastest[mode]) / 2) * turn);
+      for (int step = 0; step < 12; ++step) {
+        const Complex first = m1 * s * s + c * s + (k1 + k2), second = m2 * s * s + k2;
+        const Complex value = first * second - k2 * k2,
+                      slope = (Precise(2) * m1 * s + c) * second + first * (Precise(2) * m2 * s);
+        s -= value / slope;
+      }
+      // Row 2: −k2 x1 + (m2 s² + k2) x2 = 0, and extensions x1, x2 − x1.
+      const Complex x2(1), x1 = (m2 * s * s + k2) / k2;
+      const std::array<Complex, 2> extensions{x1, x2 - x1};
+      const std::size_t reference = found.reference[mode] - 1;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Complex ratio = extensions[i] / extensions[reference];
+        EXPECT_THAT(Interval(found.lower(mode, i), found.upper(mode, i)), testing::Encloses(Precise(ratio.real())));
+        EXPECT_THAT(Interval(found.imaginaryLower(mode, i), found.imaginaryUpper(mode, i)),
+                    testing::Encloses(Precise(ratio.imag())));
+      }
+      EXPECT_GT(found.imaginaryUpper(mode, 1 - reference) * found.imaginaryLower(mode, 1 - reference), 0);
+    }
+  }
+}
+
+TEST(Equilibria, SayWhereThereAreNoShapes) {
+  EXPECT_THAT(refusalOf(studyOf(pendulum, output("A.angle")) + shapes), HasSubstr("no output is of a mode"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "studies/analyses/derivatives.hpp"
 #include "studies/analyses/equilibria.hpp"
+#include "studies/analyses/modes.hpp"
 #include "studies/analyses/postures.hpp"
 #include "studies/analyses/witness.hpp"
 #include "studies/analyses/workspace.hpp"
@@ -215,6 +216,22 @@ inline Results sampleResults() {
   equilibria.upper = Grid({3, 2}, {-0.5, 0, 0.25, 0.75, 1, 0.5});
   equilibria.stability = {1, -1, 0};
   equilibria.open = 1;
+  ModesResult& modes = r.of<ModesResult>();
+  modes.present = true;
+  modes.cpu = 0.125;
+  modes.coordinates = "hinge.angle, slide.displacement";
+  modes.coordinate = {1, 2};
+  modes.number = {1, 2};
+  modes.mode = {1, 3};
+  modes.first = {1, 2};
+  modes.last = {1, 3};
+  modes.reference = {2, 1};
+  modes.slowest = {0.5, 2};
+  modes.fastest = {0.75, 2};
+  modes.lower = Grid({2, 2}, {-0.5, 1, 1, 0});
+  modes.upper = Grid({2, 2}, {-0.25, 1, 1, 0});
+  modes.imaginaryLower = Grid({2, 2}, {0.125, 0, 0, 0});
+  modes.imaginaryUpper = Grid({2, 2}, {0.25, 0, 0, 0});
   PosturesResult& postures = r.of<PosturesResult>();
   postures.present = true;
   postures.why = "1 part of the region is not settled";

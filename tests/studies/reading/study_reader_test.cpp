@@ -911,8 +911,8 @@ constexpr BadStudy badStudies[] = {
     {"[uncertain]]\nname", "[uncertan]]\nname",
      "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, dependence, "
      "output, "
-     "requirement, sweep, interval, stochastic, distribution, sensitivity, equilibria, postures, witness, workspace, "
-     "fuzzy, "
+     "requirement, sweep, interval, stochastic, distribution, sensitivity, equilibria, modes, postures, witness, "
+     "workspace, fuzzy, "
      "limits)"},
     {"\"hinge.angle\"\ninterval", "\"hinges.*\"\ninterval",
      "s.toml:30:12: no quantity fits 'hinges.*'; expected a pattern that `gamut quantities` shows a quantity of"},
