@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "reports/approaches.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/results/instants.hpp"
 
@@ -312,6 +313,26 @@ Json rangesObject(const Results& results) {
   return object;
 }
 
+/// How near two shapes come, when and where; of what is known.
+Json approachesArray(const Results& results) {
+  const auto range = [](const Approach::Range& r) { return Json::array({number(r.lower), number(r.upper)}); };
+  Json array = Json::array();
+  for (const Approach& a : approachesOf(results)) {
+    Json& one = array.emplace_back();
+    one["output"] = results.outputs[a.output].name;
+    one["least"] = range(a.least);
+    one["until"] = a.until;
+    one["times"] = Json::array();
+    for (const Approach::Range& span : a.when) one["times"].push_back(range(span));
+    for (const auto& [word, place] : {std::pair("from", &a.from), std::pair("to", &a.to)}) {
+      one[word] = Json::array();
+      for (const std::optional<Approach::Range>& component : *place)
+        one[word].push_back(component ? range(*component) : Json(nullptr));
+    }
+  }
+  return array;
+}
+
 }  // namespace
 
 std::string jsonSummary(const Results& results, const Finding& finding, const ResultFiles& files) {
@@ -332,6 +353,7 @@ std::string jsonSummary(const Results& results, const Finding& finding, const Re
   json["shortfall"] = textOrNull(results.interval.shortfall);
   json["advice"] = textOrNull(results.interval.advice);
   json["outputs"] = rangesObject(results);
+  json["approaches"] = approachesArray(results);
   json["requirements"] = requirementsArray(results, teller);
   json["statistics"] = statisticsObject(results, teller);
   json["alpha_cuts"] = transformationObject(results, teller);

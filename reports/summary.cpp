@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/approaches.hpp"
 #include "reports/text_table.hpp"
 #include "scalars/interval.hpp"
 #include "studies/results/extremes.hpp"
@@ -284,6 +285,8 @@ std::string textSummary(const Results& results) {
   for (const Part* part : results.parts())
     if (part->present) spend(part->title(), part->spent());
   for (const CostInfo& cost : results.costs) spend(cost.what, cost.cpu);
+  for (const std::string& line : approachLines(results, approachesOf(results)))
+    text += fmt::format("  closest approach: {}\n", line);
   if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
   if (!results.assumptions.empty()) text += fmt::format("  assumed, not proved: {}\n", results.assumptions);
   text += statisticsText(results);

@@ -4,6 +4,7 @@
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/description/refusal.hpp"
+#include "mechanics/elements/nearest_points.hpp"
 #include "mechanics/elements/shape_frame.hpp"
 #include "mechanics/elements/solid_distance.hpp"
 #include "mechanics/seen.hpp"
@@ -69,17 +70,73 @@ S fromSolid(const Placed<S>& one, const Placed<S>& solid) {
 }
 
 template <class S>
+bool isSolid(const Placed<S>& placed) {
+  return placed.is(ShapeCore::cuboid) || placed.is(ShapeCore::polyhedron);
+}
+
+template <class S>
 S distanceOf(const Frame<S>& from, const Frame<S>& to) {
   using enum ShapeCore;
   using std::sqrt;
   const Frame<S>* base = commonBase<S>(&from, &to);
   const Placed<S> one(from, base), other(to, base);
   const S radii = one.outline.radius + other.outline.radius;
-  const auto isSolid = [](const Placed<S>& placed) { return placed.is(cuboid) || placed.is(polyhedron); };
   if (isSolid(other)) return fromSolid(one, other) - radii;
   if (isSolid(one)) return fromSolid(other, one) - radii;
   return S(sqrt(squareBetween(one, other))) - radii;
 }
+
+// ---- Nearest points -------------------------------------------------------------------------------------------------
+
+template <class S>
+NearestPoints<S> nearestToSolid(const Placed<S>& one, const Placed<S>& solid) {
+  const Matrix3<S>& axes = solid.frame.turning.axes;
+  const Vector3<S> apart = axes.transpose() * Vector3<S>(one.middle() - solid.middle());
+  const Solid<S> own = solidOf(solid.outline);
+  if (one.is(ShapeCore::point)) return {one.middle(), solid.middle() + axes * nearestTo(apart, own)};
+  const SolidPair<S> pair(solidOf(one.outline), own, axes.transpose() * one.frame.turning.axes, apart);
+  const NearestPoints<S> points = SolidNearest<S>(pair).points();
+  return {solid.middle() + axes * points.one, solid.middle() + axes * points.other, axes * points.apart};
+}
+
+/// But for the radii.
+template <class S>
+NearestPoints<S> nearestOf(const Placed<S>& one, const Placed<S>& other) {
+  using enum ShapeCore;
+  if (isSolid(other)) return nearestToSolid(one, other);
+  if (isSolid(one)) {
+    const NearestPoints<S> points = nearestToSolid(other, one);
+    return {points.other, points.one, -points.apart};
+  }
+  if (one.is(segment) && other.is(segment)) return nearestOf(one.segment(), other.segment());
+  return {one.is(segment) ? nearestTo(other.middle(), one.segment()) : one.middle(),
+          other.is(segment) ? nearestTo(one.middle(), other.segment()) : other.middle()};
+}
+
+/// Two shapes at their nearest points, in the frame that both hang on.
+template <class S>
+struct Closest {
+  const Frame<S>* base;
+  Placed<S> one, other;
+  NearestPoints<S> cores;
+  Vector3<S> direction;  ///< from one to the other
+
+  Closest(const Frame<S>& from, const Frame<S>& to)
+      : base(commonBase<S>(&from, &to)),
+        one(from, base),
+        other(to, base),
+        cores(nearestOf(one, other)),
+        direction(directionAlong(cores.apart)) {}
+
+  Vector3<S> inInertial(const Vector3<S>& point) const { return base->inInertial({point, zeroVector<S>()}).position; }
+  Vector3<S> ofOne() const { return inInertial(cores.one + direction * one.outline.radius); }
+  Vector3<S> ofOther() const { return inInertial(cores.other - direction * other.outline.radius); }
+  static Vector3<S> velocityOf(const Placed<S>& placed, const Vector3<S>& point) {
+    return placed.frame.point.velocity + placed.frame.turning.omega.cross(point - placed.middle());
+  }
+  /// As directions and points change, the distance does not, to first order.
+  S rate() const { return direction.dot(velocityOf(other, cores.other) - velocityOf(one, cores.one)); }
+};
 
 template <class S>
 bool isFlat(const Frame<S>& frame) {
@@ -98,6 +155,11 @@ void Separation::describe(Fields& f) {
        "between the nearest points of their surfaces. Below 0 where they overlap: by both radii, less what centres or "
        "segments are apart; of a box and a sphere by how far that would have to be drawn out; of a box and a "
        "capsule by its radius at most; of a hull likewise; of two boxes or hulls 0, less the radii"});
+  f.measure({"rate", "m/s", "at which the distance grows"});
+  for (const char* component : components)
+    f.measure({std::string("from.") + component, "m", "of the nearest point of `from`, in the inertial frame"});
+  for (const char* component : components)
+    f.measure({std::string("to.") + component, "m", "of the nearest point of `to`, likewise"});
 }
 
 template <class S>
@@ -107,6 +169,12 @@ void Separation::assemble(Assembler<S>& a) const {
     if (isFlat(*shape))
       throw UnfitPart(name, "'" + name + "' is from '" + *word + "', whose points lie in one plane", "a solid");
   a.measure("distance", [&one, &other] { return distanceOf(one, other); });
+  a.measure("rate", [&one, &other] { return Closest<S>(one, other).rate(); });
+  for (int i = 0; i < 3; ++i) {
+    const std::string component = components[detail::at(i)];
+    a.measure("from." + component, [&one, &other, i] { return S(Closest<S>(one, other).ofOne()[i]); });
+    a.measure("to." + component, [&one, &other, i] { return S(Closest<S>(one, other).ofOther()[i]); });
+  }
 }
 
 GAMUT_ASSEMBLE(Separation)

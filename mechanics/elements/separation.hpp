@@ -11,7 +11,11 @@ struct Separation {
   static constexpr const char* summary =
       "measures how far two shapes are from each other, at their nearest points. A frame that is no shape counts as a "
       "point, its origin. Of two boxes or hulls that turn about different directions all edges are compared, which "
-      "takes a hundred times what capsules do";
+      "takes a hundred times what capsules do. Where several points are nearest, as of parallel faces, or centres, "
+      "segments or solids overlap, bounds of the points hold all of them, and a sample has one. Of an output "
+      "`NAME.distance` the closest approach is told: between which bounds it lies, when it comes, and, where its "
+      "points "
+      "are outputs too, where";
 
   std::string name, from, to;
 

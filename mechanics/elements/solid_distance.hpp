@@ -54,6 +54,7 @@ struct Solid {
   Solid() = default;
 
   bool isCuboid() const { return halves.size() == 3; }
+  bool isSegment() const { return halves.size() == 1; }
   Segment<S> along(const Edge& edge) const {
     return {S(0.5) * (corners[edge.from] + corners[edge.to]), directions[edge.direction], edge.half};
   }
@@ -164,6 +165,9 @@ typename Solid<S>::Extent Solid<S>::extent(const Vector3<S>& direction) const {
   return {S(0.5) * (least + most), S(0.5) * (most - least)};
 }
 
+template <class S>
+class SolidNearest;
+
 /// Two solids. The first has its origin at `origin`, in the axes of the second, and its axes there are `axes`. A
 /// segment is the first, and the second none.
 template <class S>
@@ -181,6 +185,7 @@ class SolidPair {
   S squareBetween() const;
 
  private:
+  friend class SolidNearest<S>;
   using Edge = typename Solid<S>::Edge;
   using Vectors = std::vector<Vector3<S>>;
 
@@ -193,12 +198,15 @@ class SolidPair {
   }
   static std::vector<std::vector<S>> cornersToEdges(const Vectors& corners, const Solid<S>& solid);
 
+  /// A direction of either that is the same; of a segment -1, and one that it is at right angles to. {-1, -1}: none.
+  std::pair<int, int> shared() const;
   S squareAcross(int ofOne, int ofOther) const;
   void takeEdges(S& least) const;
   /// Along a direction in the axes of the second, times its length.
   S gap(const Vector3<S>& direction) const;
-  /// 1 where they overlap, 0 where they are apart.
+  /// 1 where they overlap, 0 where they are apart; the latter as seen along a direction that is shared.
   S overlap() const;
+  S overlapAcross(int ofOne, int ofOther) const;
   static S isNone(const S& gap) { return S(0.5) - S(0.5) * signOf(gap); }
 
   Solid<S> one_, other_;
@@ -208,15 +216,19 @@ class SolidPair {
 };
 
 template <class S>
+std::pair<int, int> SolidPair<S>::shared() const {
+  for (int j = 0; other_.isCuboid() && j < 3; ++j) {
+    if (one_.isSegment() && isKnownZero(oneDirections_[0][j])) return {-1, j};
+    for (int i = 0; one_.isCuboid() && i < 3; ++i)
+      if (isKnownToVanish(oneDirections_[detail::at(i)].cross(other_.directions[detail::at(j)]))) return {i, j};
+  }
+  return {-1, -1};
+}
+
+template <class S>
 S SolidPair<S>::squareBetween() const {
   using std::min;
-  if (other_.isCuboid())
-    for (int j = 0; j < 3; ++j) {
-      if (one_.edges.size() == 1 && isKnownZero(oneDirections_[0][j])) return squareAcross(-1, j);
-      for (int i = 0; one_.isCuboid() && i < 3; ++i)
-        if (isKnownToVanish(oneDirections_[detail::at(i)].cross(other_.directions[detail::at(j)])))
-          return squareAcross(i, j);
-    }
+  if (const auto [ofOne, ofOther] = shared(); ofOther >= 0) return squareAcross(ofOne, ofOther);
   S least = other_.squareTo(oneCorners_.front());
   for (const Vector3<S>& corner : oneCorners_) least = min(least, other_.squareTo(corner));
   for (const Vector3<S>& corner : otherCorners_) least = min(least, one_.squareTo(corner));
@@ -243,13 +255,19 @@ S SolidPair<S>::squareAcross(int ofOne, int ofOther) const {
     if ((k >> detail::at(ofOther) & 1U) == 0)
       least = min(least,
                   isSegment ? segment.squareTo(flat(other_.corners[k])) : one_.squareAcross(otherCorners_[k], ofOne));
+  return square(positive(gap(across))) + least * (S(1.0) - overlapAcross(ofOne, ofOther));
+}
+
+template <class S>
+S SolidPair<S>::overlapAcross(int ofOne, int ofOther) const {
+  const bool isSegment = ofOne < 0;
   S overlaps(1.0);
   for (int k = 0; k < 3; ++k) {
     if (k != ofOther) overlaps = overlaps * isNone(gap(other_.directions[detail::at(k)]));
     if (!isSegment && k != ofOne) overlaps = overlaps * isNone(gap(oneDirections_[detail::at(k)]));
   }
-  if (isSegment) overlaps = overlaps * isNone(gap(oneDirections_[0].cross(across)));
-  return square(positive(gap(across))) + least * (S(1.0) - overlaps);
+  if (isSegment) overlaps = overlaps * isNone(gap(oneDirections_[0].cross(other_.directions[detail::at(ofOther)])));
+  return overlaps;
 }
 
 /// Of corners from the edges of a solid in whose axes they are.

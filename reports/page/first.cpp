@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "reports/approaches.hpp"
 #include "reports/drawing/paper.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/table.hpp"
@@ -91,6 +92,15 @@ std::string verdictCard(const Verdict& verdict) {
       word, shown, escapeHtml(verdict.sentence), notesList(verdict));
 }
 
+/// How near shapes come to each other, when and where.
+std::string approachesList(const Results& results) {
+  const std::vector<std::string> lines = approachLines(results, approachesOf(results));
+  if (lines.empty()) return {};
+  std::string list = "<p>Closest approaches, guaranteed:</p>\n<ul class=\"approaches\">\n";
+  for (const std::string& line : lines) list += fmt::format("<li>{}</li>\n", escapeHtml(line));
+  return list + "</ul>\n";
+}
+
 /// What every output does over the whole motion: the limits that it keeps, and when it comes there.
 std::string rangesTable(const Results& results) {
   constexpr std::size_t most = 12;  // that are seen at once
@@ -123,7 +133,7 @@ std::string rangesTable(const Results& results) {
          (shown > most
               ? "<details class=\"more\"><summary>All other outputs</summary>\n" + others.html() + "</details>\n"
               : "") +
-         "</section>\n";
+         approachesList(results) + "</section>\n";
 }
 
 // ---- The plot -------------------------------------------------------------------------------------------------------
