@@ -118,13 +118,21 @@ std::string rangeIn(const Approach::Range& range, double size) {
   return lower == upper ? lower : fmt::format("[{}, {}]", lower, upper);
 }
 
-std::string placeText(const std::array<std::optional<Approach::Range>, 3>& place) {
+/// Each component in its output's unit.
+std::string placeText(const Results& results, const std::string& end,
+                      const std::array<std::optional<Approach::Range>, 3>& place) {
   double size = 0;
   for (const std::optional<Approach::Range>& range : place) {
     if (!range) return {};
     size = std::max({size, std::abs(range->lower), std::abs(range->upper)});
   }
-  return fmt::format("({}, {}, {}) m", rangeIn(*place[0], size), rangeIn(*place[1], size), rangeIn(*place[2], size));
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < 3; ++i) {
+    constexpr const char* components[] = {".x", ".y", ".z"};
+    const auto output = std::ranges::find(results.outputs, end + components[i], &OutputInfo::quantity);
+    parts.push_back(inUnit(rangeIn(*place[i], size), output->unit));
+  }
+  return fmt::format("({})", fmt::join(parts, ", "));
 }
 
 std::string spansText(const std::vector<Approach::Range>& when) {
@@ -157,10 +165,11 @@ std::vector<Approach> approachesOf(const Results& results) {
 std::vector<std::string> approachLines(const Results& results, const std::vector<Approach>& approaches) {
   std::vector<std::string> lines;
   for (const Approach& a : approaches) {
-    const std::string from = placeText(a.from), to = placeText(a.to);
+    const std::string from = placeText(results, a.name + ".from", a.from),
+                      to = placeText(results, a.name + ".to", a.to);
     lines.push_back(fmt::format("{} is least at {}, {}{}{}{}", results.outputs[a.output].name,
-                                inUnit(rangeIn(a.least, motionSize(results, a.output)), "m"), spansText(a.when),
-                                from.empty() ? "" : ", from " + from, to.empty() ? "" : " to " + to,
+                                inUnit(rangeIn(a.least, motionSize(results, a.output)), results.outputs[a.output].unit),
+                                spansText(a.when), from.empty() ? "" : ", from " + from, to.empty() ? "" : " to " + to,
                                 a.isAtAllTimes ? "" : fmt::format(" (up to {})", reachedText(a.until))));
   }
   return lines;

@@ -14,8 +14,11 @@
 namespace gamut::approach_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 // ---- From bounds alone ----------------------------------------------------------------------------------------------
 
@@ -105,6 +108,19 @@ TEST(Approach, HasItsPlaceAtTheseTimesAlone) {
   EXPECT_NEAR(approach.to[2]->lower, 1.49, 1e-12);
   EXPECT_NEAR(approach.to[2]->upper, 4.51, 1e-12);
   EXPECT_EQ(approachLines(results, {approach})[0].find("from"), std::string::npos);  // y is not known
+}
+
+TEST(Approach, IsToldInTheUnitsOfItsOutputs) {
+  Results results = resultsOf({{"gap.distance", {5, 3, 1, 2, 4}, 0},
+                               {"gap.to.x", {9, 7, 5, 3, 1}, 0},
+                               {"gap.to.y", {2, 2, 2, 2, 2}, 0},
+                               {"gap.to.z", {1, 2, 3, 4, 5}, 0}});
+  results.outputs[0].name = "clearance";
+  results.outputs[0].unit = "mm";
+  results.outputs[2].unit = "cm";
+  EXPECT_THAT(approachLines(results, approachesOf(results)),
+              ElementsAre(AllOf(StartsWith("clearance is least at ["), HasSubstr("] mm, between 1 s and 3 s to (["),
+                                HasSubstr("] m, ["), HasSubstr("] cm, ["), EndsWith("] m)"))));
 }
 
 // ---- Runs -----------------------------------------------------------------------------------------------------------
