@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analyses/checkpoints.hpp"
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/needed_states.hpp"
 #include "analyses/flow/outputs/plain_outputs.hpp"
@@ -18,6 +19,7 @@
 #include "analyses/flow/step/time_kinks.hpp"
 #include "analyses/flow/surfaces.hpp"
 #include "analyses/work.hpp"
+#include "scalars/archive.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/sides.hpp"
 
@@ -162,7 +164,15 @@ Tube enclosed(const FlowQuestion& question, const Box& box, const std::vector<Bo
   Tube tube = refine(question, box, levels, looseness);
   const bool isWanting = tube.reached() < question.horizon || looseness > question.options.tightness - 1;
   if (!isWanting || tube.wasStopped() || !PolygonTube::suits(question, box)) return tube;
-  return PolygonTube::tighten(question, box, std::move(tube));
+  CheckpointedTask checkpoint(question.options.checkpoints);
+  const auto end = [&](Archive& all) {
+    all(question.budget.spent);
+    FlowRun::archive(all, tube);
+  };
+  if (checkpoint.recall(end, {}) == CheckpointedTask::Recalled::end) return tube;
+  tube = PolygonTube::tighten(question, box, std::move(tube));
+  checkpoint.end(end);
+  return tube;
 }
 
 Tube answer(const FlowFormulation& formulation, const FlowOptions& options, FlowBudget& budget, const Box& wholeBox,

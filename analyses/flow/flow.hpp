@@ -24,6 +24,8 @@
 
 namespace gamut {
 
+class Checkpoints;
+
 /// An input: a parameter that varies in time within its interval of the box, in any measurable way. The enclosures hold
 /// every absolutely continuous solution of ẋ = f(t, x, p(t)) almost everywhere (of the differential inclusion).
 struct VaryingParameter {
@@ -97,6 +99,7 @@ struct FlowOptions {
   std::vector<std::string> outputNames;  ///< likewise
   std::function<void(double)> progress;  ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was proved is kept
+  Checkpoints* checkpoints = nullptr;            ///< what the computation remembers of itself, if anything
 };
 
 /// Enclosures of all solutions that start in a box. Times are those asked for, and the horizon.

@@ -1,5 +1,6 @@
 // A tube of what all pieces gave.
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -20,6 +21,37 @@ void narrow(std::vector<Interval>& into, const std::vector<Interval>& other) {
 }
 
 }  // namespace
+
+void FlowCollected::join(FlowCollected&& other) {
+  const auto hulls = [](std::vector<std::vector<Interval>>& into, const std::vector<std::vector<Interval>>& from) {
+    for (std::size_t row = 0; row < into.size(); ++row)
+      if (!from[row].empty()) joinHulls(into[row], from[row]);
+  };
+  hulls(states, other.states);
+  hulls(statesOver, other.statesOver);
+  hulls(outputs, other.outputs);
+  hulls(outputsOver, other.outputsOver);
+  hulls(asides, other.asides);
+  hulls(stateCore, other.stateCore);
+  hulls(outputCore, other.outputCore);
+  for (std::size_t level = 0; level < cuts.size(); ++level) hulls(cuts[level], other.cuts[level]);
+  for (std::size_t row = 0; row < extremes.size(); ++row) {
+    extremes[row].resize(std::max(extremes[row].size(), other.extremes[row].size()));
+    for (std::size_t o = 0; o < other.extremes[row].size(); ++o) extremes[row][o].join(other.extremes[row][o]);
+    std::ranges::move(other.models[row], std::back_inserter(models[row]));
+    std::ranges::move(other.chords[row], std::back_inserter(chords[row]));
+  }
+  influence.resize(std::max(influence.size(), other.influence.size()));
+  for (std::size_t l = 0; l < other.influence.size(); ++l) {
+    influence[l].any = std::max(influence[l].any, other.influence[l].any);
+    influence[l].nonlinear = std::max(influence[l].nonlinear, other.influence[l].nonlinear);
+  }
+  metThreshold = metThreshold || other.metThreshold;
+  slideLoss = std::max(slideLoss, other.slideLoss);
+  steps += other.steps;
+  cpu += other.cpu;
+  cutCpu += other.cutCpu;
+}
 
 /// How far all came, and why no farther.
 void FlowRun::explainEnd(Tube& tube) const {
@@ -169,7 +201,7 @@ void FlowRun::gatherCounts(Tube& tube) {
   tube.pieces_ = pieces_;
   for (const FlowCollected& part : collected_) {
     tube.steps_ += part.steps;
-    tube.cpu_ += part.cpu;
+    tube.cpu_ += part.cpu - part.cutCpu;
     tube.cutCpu_ += part.cutCpu;
   }
 }

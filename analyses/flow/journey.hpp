@@ -91,6 +91,9 @@ struct FlowCollected {
         extremes(times),
         models(times),
         chords(times) {}
+
+  /// Adds what another gathered.
+  void join(FlowCollected&& other);
 };
 
 /// `into` becomes the hull of both, component by component; empty, it becomes `from`.

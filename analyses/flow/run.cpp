@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "analyses/checkpoints.hpp"
 #include "analyses/flow/formulation.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
@@ -14,11 +15,34 @@
 namespace gamut {
 
 Tube FlowRun::run() {
-  all_.push_back({start()});
-  failedAt_ = std::numeric_limits<double>::infinity();
-  beginTurn();
+  CheckpointedTask checkpoint(task_.options.checkpoints);
+  checkpoint_ = &checkpoint;
   const int jobs = std::max(1, task_.options.jobs);
   collected_.assign(jobs, FlowCollected(task_.times.size(), task_.levels.size()));
+  failedAt_ = std::numeric_limits<double>::infinity();
+  Tube tube;
+  const auto end = [&](Archive& all) {
+    archiveFindings(all);
+    archive(all, tube);
+  };
+  using Recalled = CheckpointedTask::Recalled;
+  const Recalled recalled = checkpoint.recall(end, [this](Archive& all) { archiveState(all); });
+  if (recalled == Recalled::end) return tube;
+  if (recalled == Recalled::nothing) {
+    std::uint64_t noted = Work::counted();
+    all_.push_back({start()});
+    noteWork(noted);
+  }
+  follow(jobs);
+  tube = gather();
+  collected_ = {};
+  if (!outOfMemory_) checkpoint.end(end);
+  return tube;
+}
+
+/// All that are there, on so many threads, to their ends.
+void FlowRun::follow(int jobs) {
+  beginTurn();
   std::vector<std::jthread> threads;
   std::atomic<std::uint64_t> counted{0};
   for (int i = 1; i < jobs; ++i)
@@ -30,9 +54,6 @@ Tube FlowRun::run() {
   threads.clear();  // joins
   Work::add(counted);
   if (error_) std::rethrow_exception(error_);
-  Tube tube = gather();
-  collected_ = {};
-  return tube;
 }
 
 FlowPiece FlowRun::start() const {
@@ -48,7 +69,8 @@ FlowPiece FlowRun::start() const {
 
 /// A thread: takes the next piece of the turn and follows it. The last to end decides what comes next.
 void FlowRun::work(FlowCollected& collected) {
-  const double began = threadCpuSeconds();
+  double began = threadCpuSeconds();
+  std::uint64_t noted = Work::counted();
   try {
     FlowFollower follower(*this, task_, collected);
     std::unique_lock lock(mutex_);
@@ -60,8 +82,11 @@ void FlowRun::work(FlowCollected& collected) {
       const std::uint64_t counted = Work::counted();
       traveller.journey = follower.followWhilePossible(traveller.piece, sliceEnd_, allowed_);
       if (traveller.journey == FlowJourney::bisected) traveller.halves = std::move(follower.halves());
+      const double ended = threadCpuSeconds();
+      collected.cpu += ended - std::exchange(began, ended);
       lock.lock();
       counted_ += Work::counted() - counted;
+      noteWork(noted);
       degree_ = std::max(degree_, task_.layouts[traveller.piece.layout].monomials->degree());
       outputDegree_ =
           std::max(outputDegree_, task_.layouts[task_.outputLayout(traveller.piece.layout)].monomials->degree());
@@ -69,7 +94,7 @@ void FlowRun::work(FlowCollected& collected) {
         unfinished_ = std::min(unfinished_, traveller.piece.set.t);
         stop_ = true;
       }
-      if (++done_ == turn_.size() && !stop_) turnOver();
+      if (++done_ == turn_.size() && !stop_) turnOver(noted);
       if (stop_ || done_ == 0) wake_.notify_all();
     }
   } catch (...) {
@@ -78,14 +103,22 @@ void FlowRun::work(FlowCollected& collected) {
     stop_ = true;
   }
   wake_.notify_all();
-  collected.cpu += threadCpuSeconds() - began - collected.cutCpu;
+  collected.cpu += threadCpuSeconds() - began;
 }
 
-void FlowRun::turnOver() {
+/// What this thread has counted since it was `noted`.
+void FlowRun::noteWork(std::uint64_t& noted) {
+  const std::uint64_t counted = Work::counted();
+  work_ += counted - std::exchange(noted, counted);
+}
+
+void FlowRun::turnOver(std::uint64_t& noted) {
   double earliest = std::numeric_limits<double>::infinity();
   for (const Traveller& traveller : all_) earliest = std::min(earliest, traveller.piece.set.t);
   try {
     endTurn();
+    noteWork(noted);
+    if (!stop_ && checkpoint_->isDue()) checkpoint_->record([this](Archive& all) { archiveState(all); }, work_);
     if (!stop_) beginTurn();
   } catch (const std::bad_alloc&) {  // what was proved until then is
     outOfMemory_ = stop_ = true;

@@ -19,6 +19,9 @@
 
 namespace gamut {
 
+class Archive;
+class CheckpointedTask;
+
 class FlowRun {
  public:
   /// Runs once. The task must outlive it.
@@ -54,6 +57,7 @@ class FlowRun {
   static Tube meet(Tube a, Tube b);
   /// The same of two of which each may have ended for want of a share of the work: that is no reason, if it is not all.
   static Tube meetStages(Tube a, Tube b, const FlowOptions& options, const FlowBudget& all);
+  static void archive(Archive& all, Tube& tube);
   /// Adds CPU time that no run has counted.
   static void charge(Tube& tube, double cpuSeconds) { tube.cpu_ += cpuSeconds; }
   static void setLevelWork(Tube& tube, double work) { tube.levelWork_ = work; }
@@ -105,8 +109,12 @@ class FlowRun {
   };
 
   FlowPiece start() const;
+  void follow(int jobs);
   void work(FlowCollected& collected);
-  void turnOver();
+  void turnOver(std::uint64_t& noted);
+  void noteWork(std::uint64_t& noted);
+  void archiveFindings(Archive& all);
+  void archiveState(Archive& all);
   void beginTurn();
   void endTurn();
   void count(const FlowPiece& piece);
@@ -135,6 +143,8 @@ class FlowRun {
   std::size_t next_ = 0, done_ = 0;
   double sliceEnd_ = 0, allowed_ = 0;  // for every piece in it: until when, how much work
   std::uint64_t counted_ = 0;          // by the threads in it
+  std::uint64_t work_ = 0;             // by all threads since the beginning
+  CheckpointedTask* checkpoint_ = nullptr;
   bool hasEnded_ = false;
   int pieces_ = 1, mostPieces_, nextProbe_ = 16;
   FlowCause ended_;     // what a probe found

@@ -10,6 +10,8 @@
 
 namespace gamut {
 
+class Archive;
+
 class TightenedModels {
  public:
   /// Another flow over the same box, that keeps models of the same outputs.
@@ -37,6 +39,8 @@ class TightenedModels {
   bool tighten(double times, double work, FlowOptions options);
   /// Whether the last try found too little work left.
   bool isWorkDone() const { return isWorkDone_; }
+  /// But for what encloses.
+  void archive(Archive& all);
 
  private:
   std::shared_ptr<const FlowModels> models_;

@@ -7,12 +7,15 @@
 
 namespace gamut {
 
+class Archive;
+
 /// Sums over steps and states, each state in proportion to the most that it varies.
 class TopGrades {
  public:
   /// Of a set after a step: n polynomials in `m`, of degree 2 at least, one behind the other.
   void add(const std::vector<double>& p, const Monomials& m);
   void join(const TopGrades& other);
+  void archive(Archive& all);
 
   bool isEmpty() const { return variation_.empty(); }
   /// So many times less is in the two highest grades than in the two that are one lower; at least 1.
