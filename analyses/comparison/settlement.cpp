@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyses/workers.hpp"
+#include "scalars/archive.hpp"
 
 namespace gamut {
 namespace {
@@ -49,6 +50,8 @@ Settlement::Settlement(const Proved& proved, const UncertainMotion& system, cons
   std::copy_n(proved.enclosure.lower.data.begin(), size, bounds_.lower.data.begin());
   std::copy_n(proved.enclosure.upper.data.begin(), size, bounds_.upper.data.begin());
 }
+
+void Settlement::archive(Archive& all) { all(refuted_, moved_, known_.outputs, known_.values, known_.error); }
 
 /// Of samples in no cut, in the first, in the first two … at one output and time. fmax, fmin: NaN is no bound.
 void Settlement::boundLevels(std::size_t cell, std::vector<double>& lower, std::vector<double>& upper) const {

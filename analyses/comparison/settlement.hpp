@@ -11,6 +11,8 @@
 
 namespace gamut {
 
+class Archive;
+
 /// What is proved at the first `reachedTimes` output times; what it is made of must outlive it.
 struct Proved {
   const Envelope& enclosure;          ///< for all samples; empty if there is none
@@ -33,6 +35,8 @@ class Settlement {
 
   /// Those of all samples; NaN beyond what is reached, and where there are none.
   const Envelope& bounds() const { return bounds_; }
+  /// What blocks have shown so far.
+  void archive(Archive& all);
 
  private:
   void boundLevels(std::size_t cell, std::vector<double>& lower, std::vector<double>& upper) const;

@@ -29,6 +29,7 @@ class BatchStatistics {
   std::vector<double> shareErrors(std::size_t cell) const;
 
   std::size_t parts() const { return parts_; }
+  void archive(Archive& all);
 
   /// Parts where so many outputs at so many times are counted: 64, or fewer, so that all together have some 2^21, but
   /// at least 8.

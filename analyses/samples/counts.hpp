@@ -8,6 +8,8 @@
 
 namespace gamut {
 
+class Archive;
+
 class Counts {
  public:
   Counts() = default;
@@ -26,6 +28,8 @@ class Counts {
     take(other.few_, few_);
     take(other.many_, many_);
   }
+
+  void archive(Archive& all);
 
   /// Bytes that each takes.
   static std::size_t bytesOf(std::size_t most) { return areFew(most) ? sizeof(std::uint16_t) : sizeof(std::uint32_t); }

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "analyses/samples/arbiter.hpp"
+#include "analyses/samples/archive.hpp"
 #include "analyses/samples/named_corners.hpp"
 #include "analyses/samples/pack_witness.hpp"
 #include "analyses/workers.hpp"
@@ -434,15 +435,39 @@ SampleBlock EnsembleRun::nextBlock(std::size_t next, std::size_t end) const {
           system_.motion.outputs()};
 }
 
-/// Cuts the block off before the first sample that was cancelled.
-void EnsembleRun::integrate(SampleBlock& block) {
-  for (std::size_t i = 0; i < block.size(); ++i)
-    if (block.first() + i < sampling_.centre()) sampling_.unitPoint(block.first() + i, block.values(i));
-  const bool isTogether = placeInPack(block.first()) == 0 && !isSwitching(block.first());
-  const std::vector<Piece> pieces = piecesOf(block.size(), isTogether ? packWidth() : 1);
-  std::vector<std::size_t> ended(pieces.size(), 0);
-  forEachIndex(options_.jobs, pieces.size(), options_.cancelled, [&] {
-    return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t piece) mutable {
+void EnsembleRun::pauseWhen(std::function<bool()> isDue, std::function<void()> pause) {
+  isPauseDue_ = std::move(isDue);
+  pause_ = std::move(pause);
+}
+
+/// The samples from `next` on, before `end`, that make a block: those before the first that was cancelled.
+SampleBlock EnsembleRun::integrateNext(std::size_t next, std::size_t end) {
+  if (!current_) {
+    current_.emplace(Current{nextBlock(next, end), {}});
+    SampleBlock& block = current_->block;
+    for (std::size_t i = 0; i < block.size(); ++i)
+      if (block.first() + i < sampling_.centre()) sampling_.unitPoint(block.first() + i, block.values(i));
+  }
+  integrate(current_->block, current_->ended);
+  SampleBlock block = std::move(current_->block);
+  current_.reset();
+  return block;
+}
+
+std::size_t EnsembleRun::widthFor(const SampleBlock& block) const {
+  return placeInPack(block.first()) == 0 && !isSwitching(block.first()) ? packWidth() : 1;
+}
+
+/// Those pieces that have not ended, until it is cancelled or a pause is due.
+void EnsembleRun::integratePieces(SampleBlock& block, std::vector<std::size_t>& ended) {
+  const std::vector<Piece> pieces = piecesOf(block.size(), widthFor(block));
+  std::vector<std::size_t> left;
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece)
+    if (ended[piece] < pieces[piece].count) left.push_back(piece);
+  std::atomic<bool> ends{false};
+  forEachIndex(options_.jobs, left.size(), &ends, [&] {
+    return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t number) mutable {
+      const std::size_t piece = left[number];
       const auto [first, count] = pieces[piece];
       for (std::size_t i = first; i < first + count; ++i) {
         sampling_.toValues(block.first() + i, system_.uncertain, block.values(i));
@@ -450,10 +475,26 @@ void EnsembleRun::integrate(SampleBlock& block) {
       }
       integrator.integrate(block, pieces[piece], [&](std::size_t more) {
         ended[piece] += more;
-        for (std::size_t i = 0; i < more; ++i) completeOne();
+        for (std::size_t k = 0; k < more; ++k) completeOne();
       });
+      if (isCancelled() || (isPauseDue_ && isPauseDue_())) ends = true;
     };
   });
+}
+
+/// Cuts the block off before the first sample that was cancelled.
+void EnsembleRun::integrate(SampleBlock& block, std::vector<std::size_t>& ended) {
+  const std::vector<Piece> pieces = piecesOf(block.size(), widthFor(block));
+  ended.resize(pieces.size(), 0);
+  const auto isWhole = [&] {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      if (ended[i] < pieces[i].count) return false;
+    return true;
+  };
+  while (!isCancelled() && !isWhole()) {
+    integratePieces(block, ended);
+    if (!isCancelled() && isPauseDue_ && isPauseDue_()) pause_();
+  }
   std::size_t kept = 0, piece = 0;
   while (piece < pieces.size() && ended[piece] == pieces[piece].count) kept += ended[piece++];
   if (piece == pieces.size()) return;
@@ -527,8 +568,7 @@ void EnsembleRun::noteFailures(const SampleBlock& block) {
 /// Keeps the samples `next` … end - 1, as far as they come.
 void EnsembleRun::integrateFirst(std::size_t& next, std::size_t end) {
   while (next < end && !isCancelled()) {
-    SampleBlock block = nextBlock(next, end);
-    integrate(block);
+    SampleBlock block = integrateNext(next, end);
     next += block.size();
     if (block.size() > 0) first_.push_back(std::move(block));
   }
@@ -582,7 +622,7 @@ void EnsembleRun::take(SampleBlock& block, const Look& look) {
   (block.hasWeight() ? counted_ : beside_) += block.size();
 }
 
-void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
+void EnsembleRun::takeFirst(const Envelope& expected, const Look& look) {
   integrateFirst();
   statistics_.emplace(expectedRange(expected), cuts_.size(), sampling_.samples());
   if (scan_.points().size() > 0) scanRange_ = Envelope(system_.motion.times.size(), system_.motion.outputs());
@@ -591,12 +631,16 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
     take(block, look);
   }
   first_.clear();
+}
+
+void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
+  if (!hasBegunOthers()) takeFirst(expected, look);
   integrateRest(nextSample_, sampling_.samples(), look);
   integrateRest(nextBeside_, sampling_.centre() + 1, look);
   if (!isCancelled()) beginScan();
   integratePoints(look);
   if (isCancelled()) return;
-  addExtremes(system_, options_.extremes, sampling_);
+  if (extremes() == 0) addExtremes(system_, options_.extremes, sampling_);
   integratePoints(look);
 }
 
@@ -604,8 +648,7 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
 void EnsembleRun::integrateRest(std::size_t& next, std::size_t end, const Look& look) {
   const std::size_t size = gamut::packWidth * packsOfBlock(error_.data.size());
   while (next < end && !isCancelled()) {
-    SampleBlock block = nextBlock(next, std::min(end, next + size));
-    integrate(block);
+    SampleBlock block = integrateNext(next, std::min(end, next + size));
     if (block.size() == 0) return;
     next += block.size();
     measureError(block);
@@ -615,7 +658,7 @@ void EnsembleRun::integrateRest(std::size_t& next, std::size_t end, const Look& 
 
 /// With what corners and centre say, whatever the number of samples: so the same quantities are found with more.
 void EnsembleRun::beginScan() {
-  if (scan_.points().size() == 0) return;
+  if (scanRange_.empty()) return;
   constexpr double margin = 1000;  // how far off trajectories may be, in tolerances
   scan_.begin(scanRange_, margin * options_.tolerance.absolute, margin * options_.tolerance.relative);
   scanRange_ = {};
@@ -626,8 +669,7 @@ void EnsembleRun::integratePoints(const Look& look) {
   while (nextPoint_ < sampling_.size() && !isCancelled()) {
     const Sampling::Zone zone = sampling_.zoneOf(nextPoint_);
     const bool isScan = zone.begin == sampling_.centre() + 1 && scan_.points().size() > 0;
-    SampleBlock block = nextBlock(nextPoint_, std::min(zone.end, nextPoint_ + size));
-    integrate(block);
+    SampleBlock block = integrateNext(nextPoint_, std::min(zone.end, nextPoint_ + size));
     if (block.size() == 0) return;
     nextPoint_ += block.size();
     if (isSwitching(block.first())) measureSwitchingError(block);
@@ -637,11 +679,40 @@ void EnsembleRun::integratePoints(const Look& look) {
     if (nextPoint_ < zone.end || turning_) continue;
     total_ -= mostSamples();
     turning_ = scan_.turning(cuts_);
-    sampling_.add(insidePoints(sampling_, cuts_, scan_, *turning_));
-    endOfOthers_ = sampling_.size();
+    addInsidePoints();
     total_ += mostSamples();
     if (options_.progress && done_ == total_) options_.progress(1);
   }
+}
+
+void EnsembleRun::addInsidePoints() {
+  sampling_.add(insidePoints(sampling_, cuts_, scan_, *turning_));
+  endOfOthers_ = sampling_.size();
+}
+
+/// Points that were added on the way follow from what is known of them.
+void EnsembleRun::archiveSampling(Archive& all) {
+  std::size_t size = sampling_.size();
+  all(options_.extremes, turning_, size, total_);
+  if (!all.isReading()) return;
+  if (turning_ && !options_.turning) addInsidePoints();
+  if (sampling_.size() < size) addExtremes(system_, options_.extremes, sampling_);
+  if (sampling_.size() != size) throw std::runtime_error("samples are not those that were archived");
+}
+
+void EnsembleRun::archive(Archive& all) {
+  archiveSampling(all);
+  bool isCurrent = current_.has_value(), hasBegun = hasBegunOthers();
+  std::size_t done = done_;
+  all(scan_, scanRange_, first_, failed_, failures_, counted_, beside_, reachedTimes_, error_, nextSample_, nextBeside_,
+      nextPoint_, measured_, done, isCurrent, hasBegun);
+  done_ = done;
+  if (isCurrent && !current_) current_.emplace();
+  if (isCurrent) all(current_->block, current_->ended);
+  if (hasBegun && !statistics_)
+    statistics_.emplace(Envelope(system_.motion.times.size(), system_.motion.outputs()), cuts_.size(),
+                        sampling_.samples());
+  if (hasBegun) all(*statistics_);
 }
 
 /// Packs that are there at a time: the first, while the statistics take them, or a block of others.

@@ -24,6 +24,8 @@
 
 namespace gamut {
 
+class Archive;
+
 /// Courses of what varies in time that switch from end to end, each a sample of its own: chosen by the number
 /// numberOfSwitching of each quantity that varies.
 struct SwitchingCourses {
@@ -120,6 +122,14 @@ class EnsembleRun {
   void integrateOthers(const Envelope& expected = {}, const Look& look = {});
   /// EnsembleOptions::extremes, which are known only now: before integrateOthers.
   void setExtremes(std::vector<std::vector<double>> extremes);
+  /// While samples are integrated: whether it is to pause, asked from any thread, and what is done then, from the
+  /// calling thread, with all others at rest: it may be archived. Empty ones: never.
+  void pauseWhen(std::function<bool()> isDue, std::function<void()> pause);
+  /// Whether others have begun, in a run that goes on from an archive.
+  bool hasBegunOthers() const { return statistics_.has_value(); }
+  /// All of it, while it pauses or does nothing; it is read into a new run of the same system and options, the
+  /// system's switching courses being what they were.
+  void archive(Archive& all);
 
   const EnsembleOptions& options() const { return options_; }
   const Sampling& sampling() const { return sampling_; }
@@ -172,8 +182,14 @@ class EnsembleRun {
   std::size_t placeInPack(std::size_t number) const;
   bool isSwitching(std::size_t number) const;
   SampleBlock nextBlock(std::size_t next, std::size_t end) const;
-  void integrate(SampleBlock& block);
+  SampleBlock integrateNext(std::size_t next, std::size_t end);
+  std::size_t widthFor(const SampleBlock& block) const;
+  void integratePieces(SampleBlock& block, std::vector<std::size_t>& ended);
+  void integrate(SampleBlock& block, std::vector<std::size_t>& ended);
+  void addInsidePoints();
+  void archiveSampling(Archive& all);
   void integrateFirst(std::size_t& next, std::size_t end);
+  void takeFirst(const Envelope& expected, const Look& look);
   void integrateRest(std::size_t& next, std::size_t end, const Look& look);
   void beginScan();
   void integratePoints(const Look& look);
@@ -205,6 +221,14 @@ class EnsembleRun {
   std::size_t measured_ = 0;     // so many of the plan's samples have had their share in the error
   std::size_t total_;
   std::atomic<std::size_t> done_{0};
+  /// A block, and how many samples of each of its pieces have come to their ends.
+  struct Current {
+    SampleBlock block;
+    std::vector<std::size_t> ended;
+  };
+  std::optional<Current> current_;
+  std::function<bool()> isPauseDue_;
+  std::function<void()> pause_;
 };
 
 /// How large an EnsembleRun is.

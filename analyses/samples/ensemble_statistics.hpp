@@ -72,6 +72,7 @@ class EnsembleStatistics {
   SampledShares shares(std::size_t time, std::size_t output) const;
   /// Forgets all but the shares at these times, which rise. To be called once, when all else has been asked.
   void keepShares(const std::vector<std::size_t>& times);
+  void archive(Archive& all);
 
   /// Bins of each histogram where there are so many: 4096, or fewer, so that all together have some 2^25, but at
   /// least 64.

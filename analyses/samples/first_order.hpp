@@ -11,6 +11,8 @@
 
 namespace gamut {
 
+class Archive;
+
 /// The least-squares fit c_0 + Σ c_q (v_q - nominal_q) / h_q, h_q half the width of quantity q's interval, of numbers
 /// that belong to samples' values v: gathered sample by sample, none is kept.
 class FirstOrder {
@@ -23,6 +25,8 @@ class FirstOrder {
   std::size_t count() const { return count_; }
   /// c_0, c_1, …; empty while samples are fewer than twice as many as these, or leave one of them open.
   std::vector<double> coefficients() const;
+  /// What was included.
+  void archive(Archive& all);
 
  private:
   const std::vector<Uncertain>* uncertain_;

@@ -10,6 +10,8 @@
 
 namespace gamut {
 
+class Archive;
+
 class InfluenceMeasures {
  public:
   /// Of some output times. `sampling`, whose boxes are the cuts at the levels `alpha`, must outlive this.
@@ -24,6 +26,8 @@ class InfluenceMeasures {
   /// corners; levels at which the cut is a point count in no mean. That is the effect of deviations by equal shares of
   /// the values, so it is 0 of what is 0. NaN where no quantity has any.
   std::vector<double> shares(std::size_t at, std::size_t output) const;
+  /// What was included.
+  void archive(Archive& all);
 
  private:
   const Sampling& sampling_;

@@ -12,8 +12,11 @@
 
 namespace gamut {
 
+class Archive;
+
 class SampleBlock {
  public:
+  SampleBlock() : SampleBlock(0, 0, false, 0, 0, 0) {}
   /// Numbers first … first + count - 1. Without weight: corners, the centre and points of a transformation, which
   /// count in envelopes alone.
   SampleBlock(std::size_t first, std::size_t count, bool hasWeight, std::size_t quantities, std::size_t times,
@@ -27,6 +30,8 @@ class SampleBlock {
         cells_(times * outputs),
         values_(count * quantities),
         rows_((count + packWidth - 1) / packWidth * cells_ * packWidth, std::numeric_limits<double>::quiet_NaN()) {}
+
+  void archive(Archive& all);
 
   std::size_t first() const { return first_; }
   std::size_t size() const { return runs.size(); }

@@ -15,6 +15,8 @@
 
 namespace gamut {
 
+class Archive;
+
 enum class Transformation {
   reduced,   ///< corners of the cuts alone
   general,   ///< all combinations of values inside the cuts, too
@@ -102,6 +104,8 @@ class TurnScan {
   /// The quantities in which outputs turn, those with the greatest share first, as many as extendedPoints() has points
   /// of.
   std::vector<std::size_t> turning(const std::vector<Box>& cuts) const;
+  /// But for its points and lines, which follow from the cuts.
+  void archive(Archive& all);
 
  private:
   struct Line {
