@@ -65,6 +65,16 @@ CLI::Validator positiveAmount(const Dimension& dimension, const std::string& wha
   return amount(dimension, fmt::format("{} above 0, such as {}", what, examples), false);
 }
 
+CLI::Validator timeOrOff(const std::string& what, const std::string& examples) {
+  const CLI::Validator time = positiveAmount({0, 0, 1, 0, 0}, what, examples);
+  const auto replace = [=](std::string& text) {
+    if (text != "off") return time(text);
+    text = "0";
+    return std::string();
+  };
+  return {replace, "", "amount"};
+}
+
 CLI::Validator outputTime() { return amount({0, 0, 1, 0, 0}, "time such as 0.5 or \"500 ms\"", true); }
 
 }  // namespace gamut

@@ -30,6 +30,9 @@ CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most);
 /// A number above 0, or text with a unit, as in a study; in its place the number of the dimension's own unit.
 CLI::Validator positiveAmount(const Dimension& dimension, const std::string& what, const std::string& examples);
 
+/// Likewise a time above 0 s; 0 in place of "off".
+CLI::Validator timeOrOff(const std::string& what, const std::string& examples);
+
 /// Likewise a time from 0 s on.
 CLI::Validator outputTime();
 

@@ -1,5 +1,7 @@
 // gamut run: the analyses of a study, its results file and its report. All that can be refused is refused before the
 // work; both files are ours from then on.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,6 +14,8 @@
 #include "commands/progress.hpp"
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
+#include "studies/checkpoint_file.hpp"
+#include "studies/named_texts.hpp"
 #include "studies/running/run.hpp"
 
 namespace gamut::commands {
@@ -23,6 +27,7 @@ struct RunCommandArguments : RunArguments {
   std::string study, results, report;
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> samples;
+  double interval = 600;  // s between checkpoints; 0: none
 };
 
 void nameOutputs(RunCommandArguments& arguments) {
@@ -30,6 +35,33 @@ void nameOutputs(RunCommandArguments& arguments) {
   if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
   if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
     throw UsageError(arguments.report + ": is both results and report; expected two names");
+}
+
+CheckpointPlan planOf(const Study& study, const RunOptions& options, const RunCommandArguments& arguments) {
+  const Limits limits = limitsOf(study, options);
+  CheckpointPlan plan;
+  plan.studyText = study.text;
+  plan.robotText = study.robot;
+  plan.tablesText = inOneText(study.tables);
+  plan.studyFile = study.file;
+  plan.seed = options.seed.value_or(study.ensemble.seed);
+  plan.samples = options.samples.value_or(study.ensemble.samples);
+  plan.timeLimit = limits.time;
+  plan.memoryLimit = limits.memory;
+  plan.report = fs::absolute(arguments.report).lexically_normal().string();
+  plan.isReplaced = arguments.force;
+  plan.interval = arguments.interval;
+  return plan;
+}
+
+/// What a run before this one would go on with is not lost unasked.
+void refuseToForget(const RunCommandArguments& arguments) {
+  const std::string path = checkpointOf(arguments.results);
+  if (!arguments.force && fs::exists(path))
+    throw OutputRefused(
+        fmt::format("{}: is of a run that was killed; expected gamut resume {}, another name, or "
+                    "--force",
+                    path, shellQuoted(arguments.results)));
 }
 
 ExitCode run(RunCommandArguments arguments) {
@@ -41,6 +73,11 @@ ExitCode run(RunCommandArguments arguments) {
   checkMemory(machine.study, options);
   OutputFile resultsFile = reserve(arguments.results, arguments.study, arguments.force);
   OutputFile reportFile = reserve(arguments.report, arguments.study, arguments.force);
+  refuseToForget(arguments);
+  std::optional<CheckpointFile> checkpoints;
+  if (arguments.interval > 0)
+    options.checkpoints =
+        &checkpoints.emplace(checkpointOf(resultsFile.target()), planOf(machine.study, options, arguments), sayNote);
   noteInterrupts();
   ProgressBar bar(!arguments.quiet);
   options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
@@ -51,8 +88,9 @@ ExitCode run(RunCommandArguments arguments) {
     throw UsageError(machine.study.file + ": " + error.what());
   }
   bar.wipe();
-
-  return keepAndSay(results, resultsFile, reportFile, arguments);
+  const ExitCode code = keepAndSay(results, resultsFile, reportFile, arguments);
+  if (checkpoints) checkpoints->remove();
+  return code;
 }
 
 }  // namespace
@@ -70,6 +108,12 @@ Action run(CLI::App& command) {
       ->type_name("REPORT.html");
   addPlanOptions(command, arguments->seed, arguments->samples);
   addRunOptions(command, *arguments);
+  command
+      .add_option("--checkpoint", arguments->interval,
+                  "How often a long run notes how far it is, in RESULTS.h5.checkpoint, so that `gamut resume` goes on "
+                  "where it was killed; s, \"10 min\" (otherwise that) or \"2 h\"; off: never")
+      ->transform(timeOrOff("time above 0, or off", "30, \"10 min\" or \"2 h\""))
+      ->type_name("SECONDS");
   command.footer(exitCodesText);
   return [arguments] { return run(*arguments); };
 }

@@ -82,12 +82,20 @@ void drawPage(const Results& results, const Verdict& verdict, OutputFile& page, 
 
 }  // namespace
 
+void sayNote(const std::string& line) { sayAside("note: " + line); }
+
 RunArguments::RunArguments() : jobs(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {}
 
-void addRunOptions(CLI::App& command, RunArguments& arguments) {
+void addTellOptions(CLI::App& command, RunArguments& arguments) {
   command.add_option("--jobs", arguments.jobs, "Threads, 1 to 1024; otherwise as many as the machine has")
       ->check(wholeNumber(1, 1024))
       ->type_name("N");
+  command.add_flag("--json", arguments.json, "One JSON object on standard output, all else on standard error");
+  command.add_flag("--quiet", arguments.quiet, "Neither progress nor summary");
+  command.add_flag("--force", arguments.force, "Overwrite existing files");
+}
+
+void addRunOptions(CLI::App& command, RunArguments& arguments) {
   command
       .add_option("--time-limit", arguments.timeLimit,
                   "CPU time for the whole run, s or \"2 h\", instead of the study's (otherwise 1800)")
@@ -99,9 +107,7 @@ void addRunOptions(CLI::App& command, RunArguments& arguments) {
                   "machine's)")
       ->transform(positiveAmount({0, 0, 0, 0, 1}, "memory", "2, \"2 GB\" or \"500 MiB\""))
       ->type_name("GB");
-  command.add_flag("--json", arguments.json, "One JSON object on standard output, all else on standard error");
-  command.add_flag("--quiet", arguments.quiet, "Neither progress nor summary");
-  command.add_flag("--force", arguments.force, "Overwrite existing files");
+  addTellOptions(command, arguments);
 }
 
 void addPlanOptions(CLI::App& command, std::optional<std::uint64_t>& seed, std::optional<std::size_t>& samples) {

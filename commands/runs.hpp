@@ -21,11 +21,16 @@ struct RunArguments {
 };
 
 void addRunOptions(CLI::App& command, RunArguments& arguments);
+/// Of these, what changes nothing of what is found.
+void addTellOptions(CLI::App& command, RunArguments& arguments);
 /// What of the sampling plan is instead of the study's.
 void addPlanOptions(CLI::App& command, std::optional<std::uint64_t>& seed, std::optional<std::size_t>& samples);
 
 /// With interrupts noted, without seed, samples and progress.
 RunOptions runOptions(const RunArguments& arguments);
+
+/// On standard error, "note: ...".
+void sayNote(const std::string& line);
 
 /// Throws UsageError if samples need more memory than there may be: a block's motions are kept until it was compared.
 void checkMemory(const Study& study, const RunOptions& options);

@@ -24,6 +24,7 @@ struct Command {
 namespace commands {
 
 Action run(CLI::App& command);
+Action resume(CLI::App& command);
 Action extend(CLI::App& command);
 Action validate(CLI::App& command);
 Action check(CLI::App& command);
@@ -44,6 +45,7 @@ inline constexpr Command table[] = {
     {"new", "Write a study to start from, which explains itself", newStudy},
     {"quantities", "What of a study can be uncertain, and what can be an output", quantities},
     {"run", "Run a study; write results and a report", run},
+    {"resume", "A run that was killed goes on; it ends with the same results as one that was not", resume},
     {"extend", "More samples for results, which keep all that was proved", extend},
     {"validate", "Read and check a study file, no more", validate},
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},

@@ -80,10 +80,18 @@ double memoryPresent() {
       {machine, limitIn("/sys/fs/cgroup/memory.max"), limitIn("/sys/fs/cgroup/memory/memory.limit_in_bytes")});
 }
 
+namespace {
+
+std::atomic<double> formerCpuSeconds{0};
+
+}  // namespace
+
+void addCpuSeconds(double seconds) { formerCpuSeconds += seconds; }
+
 double processCpuSeconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  return formerCpuSeconds + static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 double peakMemory() {
@@ -158,6 +166,11 @@ double Watch::spent() const { return processCpuSeconds() - began_; }
 void Watch::memoryFailed() {
   const std::lock_guard lock(mutex_);
   if (!stop_) endForMemory();
+}
+
+void Watch::noteFormerStop(const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  noteStop(why);
 }
 
 void Watch::endForMemory() {

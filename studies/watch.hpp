@@ -30,8 +30,10 @@ struct StatedLimits {
 /// Memory that this process may use at most, bytes: the machine's, or its control group's.
 double memoryPresent();
 
-/// CPU time of the process, all threads, s.
+/// CPU time of the process, all threads, with what was added to it, s.
 double processCpuSeconds();
+/// That of a process before this one, which goes on with its work.
+void addCpuSeconds(double seconds);
 
 /// The most memory that the process has had at a time, bytes.
 double peakMemory();
@@ -69,6 +71,8 @@ class Watch {
   std::string key() const;
   /// A request for memory failed: the stage ends for want of it.
   void memoryFailed();
+  /// Why a stage had to end for the first time in a process before this one.
+  void noteFormerStop(const std::string& why);
   /// CPU time since the watch began and before it, s.
   double spent() const;
 

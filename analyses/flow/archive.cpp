@@ -37,6 +37,8 @@ void archive(Archive& all, FlowSnapshot& snapshot) {
 
 void archive(Archive& all, FlowChord& chord) { all(chord.part, chord.before, chord.behind, chord.sag, chord.bound); }
 
+void archive(Archive& all, FlowSymbol& symbol) { all(symbol.centre, symbol.half, symbol.symbol); }
+
 void archive(Archive& all, FlowModels& models) {
   all(models.components, models.symbols, models.modelled, models.areAlternatives, models.at, models.over);
 }

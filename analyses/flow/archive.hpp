@@ -21,6 +21,7 @@ void archive(Archive& all, FlowPart& part);
 void archive(Archive& all, OutputModel& model);
 void archive(Archive& all, FlowSnapshot& snapshot);
 void archive(Archive& all, FlowChord& chord);
+void archive(Archive& all, FlowSymbol& symbol);
 void archive(Archive& all, FlowModels& models);
 void archive(Archive& all, OutputExtremes& extremes);
 void archive(Archive& all, FlowSet& set);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "analyses/work.hpp"
+#include "scalars/archive.hpp"
+
 namespace gamut {
 
 ModelMasses::ModelMasses(std::vector<const Uncertain*> quantities, QuantityDependence dependence)
@@ -15,6 +18,15 @@ const JointMasses& ModelMasses::in(int symbols, const std::vector<FlowSymbol>& q
   if (masses_ && masses_->symbols() == symbols && std::ranges::equal(symbols_, quantities, isSame)) return *masses_;
   symbols_ = quantities;
   return masses_.emplace(symbols, quantities, quantities_, dependence_);
+}
+
+void ModelMasses::archive(Archive& all) {
+  int symbols = masses_ ? masses_->symbols() : -1;
+  std::vector<FlowSymbol> quantities = symbols_;
+  all(symbols, quantities);
+  if (!all.isReading() || symbols < 0) return;
+  const Work::Aside made;
+  in(symbols, quantities);
 }
 
 }  // namespace gamut

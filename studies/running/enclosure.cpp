@@ -43,7 +43,7 @@ class Encloser {
     }
     run_.spent.enclosure += work - levelWork_;
     run_.spent.cuts += levelWork_;
-    found.models = {std::move(models_), study_.flow.tightness, run_.spent.enclosure, tighter()};
+    found.models = {std::move(models_), study_.flow.tightness, run_.spent.enclosure, tighterFlow(run_)};
     interval.cpu = cpu - cutCpu_;
     if (!study_.asksFor<IntervalResult>()) cutCpu_ = cpu;  // no other answer is there to be charged
     interval.reached = found.reached;
@@ -232,15 +232,6 @@ class Encloser {
     places_.lower = places_.upper = places_.sag = {};
   }
 
-  /// A flow of the margins alone, or of all outputs.
-  TightenedModels::Enclose tighter() const {
-    if (!run_.moves()) return {};
-    return [&machine = run_.machine](FlowOptions flow) {
-      const auto model = asksForDistributions(machine.study) ? modelAll : modelMargins;
-      return model(machine, std::move(flow), machine.box);
-    };
-  }
-
   Run& run_;
   const Study& study_;
   const Seen& seen_;
@@ -255,6 +246,7 @@ class Encloser {
 
 FlowOptions enclosureOptions(const Run& run, const OutputScales& scales) {
   FlowOptions flow = flowOptions(run.machine, run.options.jobs, run.watch.stop());
+  flow.checkpoints = run.options.checkpoints;
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   flow.floors = floorsOf(run.study, scales);
   for (const OutputInfo& output : run.study.outputs)
@@ -268,6 +260,14 @@ FlowOptions enclosureOptions(const Run& run, const OutputScales& scales) {
   return flow;
 }
 
+TightenedModels::Enclose tighterFlow(const Run& run) {
+  if (!run.moves()) return {};
+  return [&machine = run.machine](FlowOptions flow) {
+    const auto model = asksForDistributions(machine.study) ? modelAll : modelMargins;
+    return model(machine, std::move(flow), machine.box);
+  };
+}
+
 void boundModels(const Run& run, FlowOptions& options) {
   constexpr double mostAt = 1.28e8;  // bytes, but at the times of distributions: of more output times there are fewer
   options.modelAtBytes = options.modelBytes = std::min(options.modelBytes, 0.25 * run.limits.enclosureMemory);
@@ -279,6 +279,7 @@ FlowOptions tighterOptions(const Run& run, double longestStep, const char* task)
   FlowOptions options = flowOptions(run.machine, run.options.jobs, run.watch.stop());
   options.longestStep = std::min(options.longestStep, longestStep);
   options.progress = run.progressOf(task);
+  options.checkpoints = run.options.checkpoints;
   boundModels(run, options);
   return options;
 }

@@ -11,7 +11,7 @@
 
 namespace gamut {
 
-/// Without progress and names of outputs.
+/// Without progress, names of outputs and memory.
 FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool>* cancelled);
 
 /// Outputs of the study that are margins, one behind the other.

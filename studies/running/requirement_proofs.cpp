@@ -8,11 +8,14 @@
 #include <memory>
 #include <utility>
 
+#include "analyses/checkpoints.hpp"
 #include "analyses/requirements/requirement.hpp"
 #include "analyses/requirements/start.hpp"
+#include "scalars/archive.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/margins.hpp"
+#include "studies/running/run_memory.hpp"
 #include "studies/running/units.hpp"
 #include "studies/words.hpp"
 
@@ -295,9 +298,18 @@ class RequirementProof {
       result.metUntil = metUntil(run_.machine, *models(), study_.requirements[number]);
   }
 
-  /// What models of the margins say of one requirement; no less than what is known of it already.
+  /// Unless it is remembered.
   void examine(const FlowModels& models, std::size_t number, double work, std::vector<Suspect>& suspects) {
     const Charge charge(&run_.spent.requirements);
+    CheckpointedTask checkpoint(run_.options.checkpoints);
+    const auto end = [&](Archive& all) { all(results_, suspects, masses_); };
+    if (checkpoint.recall(end, {}) == CheckpointedTask::Recalled::end) return;
+    examineAnew(models, number, work, suspects);
+    checkpoint.end(end);
+  }
+
+  /// What models of the margins say of one requirement; no less than what is known of it already.
+  void examineAnew(const FlowModels& models, std::size_t number, double work, std::vector<Suspect>& suspects) {
     const Requirement& requirement = study_.requirements[number];
     const CellQuestion whole = questionOf(study_, requirement, study_.times.size());
     if (models.at.size() <= whole.from) return;

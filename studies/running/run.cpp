@@ -12,6 +12,7 @@
 #include "analyses/consistency.hpp"
 #include "studies/assumed_rows.hpp"
 #include "studies/printable.hpp"
+#include "studies/running/run_memory.hpp"
 #include "studies/running/units.hpp"
 #include "studies/told.hpp"
 #include "studies/version.hpp"
@@ -148,8 +149,10 @@ Results run(const Machine& machine, const RunOptions& options) {
   ModelMasses masses = massesOf(machine);
   stateRequirements(machine.study, results);
   const Seen seen = lookAtMachine(run, results.picture);
-  takeFirstSamples(run, samples, results);
-  Enclosure enclosure = enclose(run, seen, samples.scales, results);
+  Enclosure enclosure;
+  RunMemory once(run, samples, enclosure, masses, results);
+  once([&] { takeFirstSamples(run, samples, results); });
+  once([&] { enclosure = enclose(run, seen, samples.scales, results); });
   std::string failure;
   const auto goOn = [&](const auto& units) {  // a failure must not cost what was proved
     try {
@@ -159,14 +162,14 @@ Results run(const Machine& machine, const RunOptions& options) {
     }
   };
   goOn([&] {
-    takeOtherSamples(run, enclosure, samples, results);
-    countRequirements(machine.study, results);
-    estimateRequirements(run, enclosure.reachedTimes, samples, results);
-    seekAdvice(run, samples.scales, enclosure, results);
-    checkRequirements(run, samples, enclosure, masses, results);
-    boundProbabilities(run, samples.scales, enclosure, masses, results);
-    compareShares(machine.study, samples, results);
-    findFurther(run, results);
+    once([&] { takeOtherSamples(run, enclosure, samples, results); });
+    once([&] { countRequirements(machine.study, results); });
+    once([&] { estimateRequirements(run, enclosure.reachedTimes, samples, results); });
+    once([&] { seekAdvice(run, samples.scales, enclosure, results); });
+    once([&] { checkRequirements(run, samples, enclosure, masses, results); });
+    once([&] { boundProbabilities(run, samples.scales, enclosure, masses, results); });
+    once([&] { compareShares(machine.study, samples, results); });
+    once([&] { findFurther(run, results); });
   });
   noteStop(run, failure, results);
   const bool isWhole = failure.empty();

@@ -13,6 +13,8 @@
 
 namespace gamut {
 
+class Checkpoints;
+
 /// What belongs to a run, not to the study.
 struct RunOptions {
   int jobs = 1;                        ///< threads
@@ -25,6 +27,7 @@ struct RunOptions {
   /// Called, from a thread of its own, if an enclosure that was told to end has not done so for a minute.
   std::function<void(const std::string& why)> overdue;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was computed is kept
+  Checkpoints* checkpoints = nullptr;            ///< what it remembers of itself, made by the thread that runs it
 };
 
 /// The study's limits, or those of the options.

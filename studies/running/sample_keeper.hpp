@@ -8,6 +8,8 @@
 
 namespace gamut {
 
+class Archive;
+
 class SampleKeeper {
  public:
   /// Of `samples` numbers, the last of which is the centre, with so many uncertain quantities and so many numbers in a
@@ -21,6 +23,7 @@ class SampleKeeper {
 
   /// All that was kept, by rising number.
   KeptSamples take();
+  void archive(Archive& all);
 
  private:
   std::size_t centre_;

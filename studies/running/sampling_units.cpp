@@ -6,9 +6,12 @@
 #include <optional>
 #include <utility>
 
+#include "analyses/checkpoints.hpp"
 #include "analyses/comparison/settlement.hpp"
 #include "analyses/samples/influence.hpp"
 #include "analyses/samples/order_statistics.hpp"
+#include "scalars/archive.hpp"
+#include "studies/running/run_memory.hpp"
 #include "studies/running/sample_keeper.hpp"
 #include "studies/running/sampled_study.hpp"
 #include "studies/running/units.hpp"
@@ -28,16 +31,6 @@ void sampleWhileThereIsRoom(Run& run, Watch::Stage stage, SampledMotion& samples
   result.stopped = run.watch.why();
 }
 
-EnsembleOptions ensembleOptions(const Run& run, const Results& results) {
-  EnsembleOptions options =
-      ensembleOptions(run.machine, results, run.options.samples.value_or(run.study.ensemble.samples));
-  options.jobs = run.options.jobs;
-  options.secondsPerSample = run.limits.sampleTime;
-  options.progress = run.progressOf("samples");
-  options.cancelled = run.watch.stop();
-  return options;
-}
-
 ComparisonOptions comparisonOptions(const Run& run) {
   ComparisonOptions options;
   options.jobs = run.options.jobs;
@@ -45,6 +38,22 @@ ComparisonOptions comparisonOptions(const Run& run) {
   options.cancelled = run.watch.stop();
   return options;
 }
+
+/// While one lives, the ensemble pauses now and then, and its state is recorded.
+class Pauses {
+ public:
+  Pauses(EnsembleRun& ensemble, CheckpointedTask& checkpoint, const CheckpointedTask::Content& state)
+      : ensemble_(ensemble) {
+    ensemble.pauseWhen([&checkpoint] { return checkpoint.isDue(); },
+                       [&checkpoint, state] { checkpoint.record(state); });
+  }
+  ~Pauses() { ensemble_.pauseWhen({}, {}); }
+  Pauses(const Pauses&) = delete;
+  Pauses& operator=(const Pauses&) = delete;
+
+ private:
+  EnsembleRun& ensemble_;
+};
 
 /// Averages over the times that all samples reached.
 void describeConvergence(const EnsembleRun& ensemble, std::size_t outputs, StochasticResult& stochastic) {
@@ -180,6 +189,16 @@ void describeInfluence(const Study& study, const InfluenceMeasures& measures, st
 
 }  // namespace
 
+EnsembleOptions ensembleOptions(const Run& run, const Results& results) {
+  EnsembleOptions options =
+      ensembleOptions(run.machine, results, run.options.samples.value_or(run.study.ensemble.samples));
+  options.jobs = run.options.jobs;
+  options.secondsPerSample = run.limits.sampleTime;
+  options.progress = run.progressOf("samples");
+  options.cancelled = run.watch.stop();
+  return options;
+}
+
 void takeFirstSamples(Run& run, SampledMotion& samples, Results& results) {
   if (!run.study.asksFor<StochasticResult>()) return;
   const EnsembleOptions options = ensembleOptions(run, results);
@@ -200,6 +219,10 @@ void takeFirstSamples(Run& run, SampledMotion& samples, Results& results) {
     stochastic.alphaCorners = static_cast<std::int64_t>(ensemble.sampling().boxCorners());
     stochastic.packWidth = static_cast<std::int64_t>(ensemble.packWidth());
     describeTransformation(run.study, ensemble, results);
+    CheckpointedTask checkpoint(run.options.checkpoints);
+    const auto state = [&](Archive& all) { all(ensemble); };
+    checkpoint.recall({}, state);
+    const Pauses pauses(ensemble, checkpoint, state);
     ensemble.integrateFirst();
     if (*run.watch.stop()) stochastic.stopped = run.watch.why();
     if (run.study.asksFor<IntervalResult>()) samples.scales = scalesOf(run, samples.motion, ensemble);
@@ -217,7 +240,14 @@ void takeOtherSamples(Run& run, const Enclosure& enclosure, SampledMotion& sampl
     const std::size_t last = ensemble.sampling().centre();
     SampleKeeper keeper(last + 1, study.uncertain.size(), study.times.size() * study.outputs.size(), study.storage);
     std::optional<InfluenceMeasures> influence = measureInfluence(study, ensemble);
-    if (!samples.former) {
+    CheckpointedTask checkpoint(run.options.checkpoints);
+    const auto state = [&](Archive& all) {
+      archiveSamples(all, run, samples, results);
+      all(settlement, keeper);
+      if (influence) all(*influence);
+    };
+    const bool isGoneOn = checkpoint.recall({}, state) == CheckpointedTask::Recalled::state;
+    if (!samples.former && !isGoneOn) {
       std::vector<std::vector<double>> extremes = extremePoints(study, enclosure, samples);
       std::ranges::move(takeWorstCourses(run, samples.scales, samples.motion, stochastic.switching),
                         std::back_inserter(extremes));
@@ -225,6 +255,7 @@ void takeOtherSamples(Run& run, const Enclosure& enclosure, SampledMotion& sampl
         std::ranges::copy(values, std::back_inserter(stochastic.extremes.values));
       ensemble.setExtremes(std::move(extremes));
     }
+    const Pauses pauses(ensemble, checkpoint, state);
     ensemble.integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
       if (!run.moves()) moveSamples(run.machine, block);
       settlement.settle(block, [&](const Comparison& found, int level) {

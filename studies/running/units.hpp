@@ -105,6 +105,10 @@ void showSamples(Run& run, const Seen& seen, const std::string& whyEnclosureEnde
 
 /// Of the study's enclosure, as far as it decides how far that comes: without progress, models and alpha-cuts.
 FlowOptions enclosureOptions(const Run& run, const OutputScales& scales);
+/// A flow of the margins alone, or of all outputs; empty where nothing moves.
+TightenedModels::Enclose tighterFlow(const Run& run);
+/// How the study's samples are integrated in this run.
+EnsembleOptions ensembleOptions(const Run& run, const Results& results);
 /// What a flow may keep of the outputs, and when first of all.
 void boundModels(const Run& run, FlowOptions& options);
 /// Of flows that tighten its models.

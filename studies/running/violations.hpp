@@ -8,6 +8,7 @@
 
 namespace gamut {
 
+class Archive;
 struct Results;
 struct Run;
 struct SampledMotion;
@@ -28,6 +29,7 @@ class Suspects {
   void add(Suspect suspect);
   /// The worst first.
   std::vector<Suspect> sorted() const;
+  void archive(Archive& all);
 
  private:
   std::vector<Suspect> all_;

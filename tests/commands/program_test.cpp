@@ -71,9 +71,9 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   EXPECT_EQ(gamut("run").error, "gamut: STUDY.toml is missing; see gamut run --help\n");
   EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
   EXPECT_EQ(gamut("walk").error,
-            "gamut: unknown command 'walk'; expected one of: new, quantities, run, extend, validate, check, compare, "
-            "tolerance, sweep, "
-            "report, info, replay and 4 more\n");
+            "gamut: unknown command 'walk'; expected one of: new, quantities, run, resume, extend, validate, check, "
+            "compare, tolerance, sweep, "
+            "report, info and 5 more\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }

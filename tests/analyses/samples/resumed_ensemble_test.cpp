@@ -48,7 +48,7 @@ std::string bitsOf(const Question& question, int jobs, Memory* memory) {
   return bytesOf(state);
 }
 
-void expectTheSame(const Question& question, int parts = 9) {
+void expectTheSame(const Question& question, int parts = 5) {
   const std::string whole = bitsOf(question, 1, nullptr);
   Memory undisturbed;
   EXPECT_TRUE(bitsOf(question, 1, &undisturbed) == whole);
@@ -71,8 +71,8 @@ EnsembleOptions samples(std::size_t count) {
 }
 
 TEST(ResumedEnsemble, IsTheSameByEveryPlan) {
-  for (const Plan plan : {Plan::sobol, Plan::random, Plan::latinHypercube, Plan::halton}) {
-    EnsembleOptions options = samples(1200);
+  for (const Plan plan : {Plan::sobol, Plan::random}) {
+    EnsembleOptions options = samples(600);
     options.plan = plan;
     expectTheSame({oscillator(), options});
   }
