@@ -19,12 +19,14 @@ function(expect_refusal flag folder)
   endif()
 endfunction()
 
-set(to_gcc -fsingle-precision-constant -mfpmath=387)
-set(to_clang -ffp-model=fast -fapprox-func -fno-honor-nans -fdenormal-fp-math=preserve-sign)
-set(flags -ffast-math -Ofast -ffinite-math-only -funsafe-math-optimizations -fassociative-math -freciprocal-math
-  -fno-signed-zeros)
-foreach(flag ${flags} ${to_gcc} ${to_clang})
-  # The compiler is known from the first of these; the flag is only read, so that clang's are refused to g++ too.
+# The flags are only read: what is refused to g++, clang's too, need not be refused to clang once more.
+set(flags -ffast-math)
+if(NOT COMPILER MATCHES clang)
+  list(APPEND flags -Ofast -ffinite-math-only -funsafe-math-optimizations -fassociative-math -freciprocal-math
+    -fno-signed-zeros -fsingle-precision-constant -mfpmath=387
+    -ffp-model=fast -fapprox-func -fno-honor-nans -fdenormal-fp-math=preserve-sign)
+endif()
+foreach(flag ${flags})
   expect_refusal(${flag} ${SOURCE} -D CMAKE_CXX_FLAGS_RELWITHDEBINFO=${flag})
 endforeach()
 expect_refusal(-ffast-math ${SOURCE} -D CMAKE_CXX_FLAGS_RELWITHDEBINFO= -D "CMAKE_CXX_FLAGS=-O2 -ffast-math")

@@ -1,19 +1,34 @@
-# Comparing intervals with == < <=> and the like may not compile, and what the compiler says names the predicates.
+# Comparing intervals with == < <=> and the like may not compile, and what the compiler says names the predicates. Of
+# one source each line but the first holds a comparison.
 file(MAKE_DIRECTORY ${BINARY})
+set(comparisons "isDisjoint(x, y)" "x == y" "x != 1.0" "x < y" "2 >= x" "(x <=> y) < 0")
+set(source "#include \"scalars/interval.hpp\"\n")
+set(line 1)
+foreach(comparison ${comparisons})
+  math(EXPR line "${line} + 1")
+  string(APPEND source "bool f${line}(gamut::Interval x, gamut::Interval y) { return ${comparison} && isThin(y); }\n")
+endforeach()
+file(WRITE ${BINARY}/comparison.cpp "${source}")
+
 foreach(compiler ${COMPILERS})
-  foreach(comparison "isDisjoint(x, y)" "x == y" "x != 1.0" "x < y" "2 >= x" "(x <=> y) < 0")
-    file(WRITE ${BINARY}/comparison.cpp
-      "#include \"scalars/interval.hpp\"\nbool f(gamut::Interval x, gamut::Interval y) { return ${comparison} && isThin(y); }\n")
-    execute_process(COMMAND ${compiler} -std=c++20 -I${SOURCE} -fsyntax-only ${BINARY}/comparison.cpp
-      RESULT_VARIABLE status OUTPUT_QUIET ERROR_VARIABLE errors)
+  execute_process(COMMAND ${compiler} -std=c++20 -I${SOURCE} -fsyntax-only ${BINARY}/comparison.cpp
+    OUTPUT_QUIET ERROR_VARIABLE errors)
+  # A list of what is said of each line with an error.
+  string(REGEX REPLACE "[][;]" " " errors "${errors}")
+  string(REGEX REPLACE "comparison[.]cpp:([0-9]+):[0-9]+: error" ";\\1" errors "${errors}")
+  set(line 1)
+  foreach(comparison ${comparisons})
+    math(EXPR line "${line} + 1")
+    set(said ${errors})
+    list(FILTER said INCLUDE REGEX "^${line}:")
     if(comparison MATCHES "isDisjoint")
-      if(NOT status EQUAL 0)
+      if(said OR NOT errors)
         message(FATAL_ERROR "${compiler}: not even a predicate compiles: ${errors}")
       endif()
-    elseif(status EQUAL 0)
+    elseif(NOT said)
       message(FATAL_ERROR "${compiler} compiles ${comparison}")
-    elseif(NOT errors MATCHES "NoYesOrNo_use_isEqual_isSubset_isDisjoint_certainlyLess")
-      message(FATAL_ERROR "${compiler} does not name the predicates where it refuses ${comparison}: ${errors}")
+    elseif(NOT said MATCHES "NoYesOrNo_use_isEqual_isSubset_isDisjoint_certainlyLess")
+      message(FATAL_ERROR "${compiler} does not name the predicates where it refuses ${comparison}: ${said}")
     endif()
   endforeach()
 endforeach()
