@@ -233,25 +233,27 @@ TEST_F(ResultsFile, KeepsLongTextsAndShowsControlCharactersInWords) {
 
 /// xarray's own words for a file.
 TEST_F(ResultsFile, IsReadByXarrayWithUnitsAndNamedDimensions) {
-  const std::string python = "/usr/bin/python3 -c '";
-  if (std::system((python + "import xarray, h5netcdf' > /dev/null 2>&1").c_str()) != 0)
+  if (std::system("/usr/bin/python3 -c 'import xarray, h5netcdf' > /dev/null 2>&1") != 0)
     GTEST_SKIP() << "python3-xarray and python3-h5netcdf are not installed";
   writeResults(sampleResults(), path_);
-  const auto show = [&](const std::string& group, const std::string& expression) {
-    return outputOf(python + "import xarray; f = xarray.open_dataset(\"" + path_ + "\", engine=\"h5netcdf\", group=\"" +
-                    group + "\"); print(" + expression + ")'");
+  std::string program = "import xarray\n", expected;
+  const auto expect = [&](const std::string& group, const std::string& expression, const std::string& shown) {
+    program += "f = xarray.open_dataset('" + path_ + "', engine='h5netcdf', group='" + group + "')\n";
+    program += "print(" + expression + ")\n";
+    expected += shown + "\n";
   };
-  EXPECT_EQ(show("/", "f.output.values, f.time.values, f.time.units"), "['tip height' 'energy'] [0.   0.01 0.02] s\n");
-  EXPECT_EQ(show("interval", "f.at_lower.dims, f.at_lower.units, f.why"),
-            "('time', 'output') m, J the enclosure became wider than 1e6\n");
-  EXPECT_EQ(show("fuzzy", "f.outer_upper.dims, f.alpha.values"), "('alpha', 'time', 'output') [0.  0.5 1. ]\n");
-  EXPECT_EQ(show("stochastic", "f.quantiles.sel(probability=0.95).shape, f.samples"), "(3, 2) 4096\n");
-  EXPECT_EQ(show("comparison", "f.maximum_of.values, f.overestimation.units"), "[12. nan] 1\n");
-  EXPECT_EQ(show("comparison/disputed", "f.decided.sel(number=17).item()"), "Taylor 53 bits\n");
-  EXPECT_EQ(show("/", "f.quantity.values"), "['first angle']\n");
-  EXPECT_EQ(show("study/uncertain", "f.upper.dims, f.upper.values, f.upper.units"), "('quantity',) [1.1] rad\n");
-  EXPECT_EQ(show("study/libraries", "f.version.sel(name=\"HDF5\").item()"), "1.10\n");
-  EXPECT_EQ(show("study", "f.text.item() == \"[study]\\ntitle = \\\"α\\\"\\n\""), "True\n");
+  expect("/", "f.output.values, f.time.values, f.time.units", "['tip height' 'energy'] [0.   0.01 0.02] s");
+  expect("interval", "f.at_lower.dims, f.at_lower.units, f.why",
+         "('time', 'output') m, J the enclosure became wider than 1e6");
+  expect("fuzzy", "f.outer_upper.dims, f.alpha.values", "('alpha', 'time', 'output') [0.  0.5 1. ]");
+  expect("stochastic", "f.quantiles.sel(probability=0.95).shape, f.samples", "(3, 2) 4096");
+  expect("comparison", "f.maximum_of.values, f.overestimation.units", "[12. nan] 1");
+  expect("comparison/disputed", "f.decided.sel(number=17).item()", "Taylor 53 bits");
+  expect("/", "f.quantity.values", "['first angle']");
+  expect("study/uncertain", "f.upper.dims, f.upper.values, f.upper.units", "('quantity',) [1.1] rad");
+  expect("study/libraries", "f.version.sel(name='HDF5').item()", "1.10");
+  expect("study", R"(f.text.item() == '[study]\ntitle = "α"\n')", "True");
+  EXPECT_EQ(outputOf("/usr/bin/python3 " + folder_.write("show.py", program)), expected);
 }
 
 TEST_F(ResultsFile, IsRefusedAtEveryTruncation) {
