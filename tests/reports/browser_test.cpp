@@ -120,6 +120,19 @@ std::string noted(const std::string& page) {
                                    : page.substr(from + begin.size(), page.find("</pre>", from) - from - begin.size());
 }
 
+/// What a reader's script has joined by "|next|".
+std::vector<std::string> parted(const std::string& text) {
+  const std::string between = "|next|";
+  std::vector<std::string> parts;
+  std::size_t from = 0;
+  for (std::size_t to = text.find(between); to != std::string::npos; to = text.find(between, from)) {
+    parts.push_back(text.substr(from, to - from));
+    from = to + between.size();
+  }
+  parts.push_back(text.substr(from));
+  return parts;
+}
+
 /// Beside a hairline of a curve its spread says more, and is seen first; wide bands are seen as they are.
 TEST_F(Browser, ShowsTheSpreadFirstWhereTheBandIsThin) {
   Results results = example::pendulum(61, 2);
@@ -168,16 +181,19 @@ TEST_F(Browser, CopiesTheNumbersOfAFigure) {
 
 /// The file that would be saved: colours of paper, also of a page in the dark, and nothing that it would have to load.
 TEST_F(Browser, SavesAFigureThatNeedsNothingBesideIt) {
-  for (const char* place : {".outputs .keep", ".memberships .keep", ".picture .keep"}) {
-    const std::string page =
-        opened(example::machine(), std::string() +
-                                       "URL.createObjectURL = blob => { blob.text().then(note); return 'blob:none'; };"
-                                       "HTMLAnchorElement.prototype.click = () => {};"
-                                       "document.querySelector('" +
-                                       place + " button:last-child').click();");
-    const std::string svg = noted(page);
-    EXPECT_THAT(rootOf(page), Not(HasSubstr("data-error")));
-    EXPECT_THAT(svg, ::testing::StartsWith("&lt;svg xmlns=\"http://www.w3.org/2000/svg\"")) << place;
+  const std::string page =
+      opened(example::machine(),
+             "HTMLAnchorElement.prototype.click = () => {};"
+             "const saved = place => new Promise(then => {"
+             "  URL.createObjectURL = blob => { blob.text().then(then); return 'blob:none'; };"
+             "  document.querySelector(place + ' button:last-child').click(); });"
+             "note([await saved('.outputs .keep'), await saved('.memberships .keep'), await saved('.picture .keep')]"
+             "  .join('|next|'));");
+  EXPECT_THAT(rootOf(page), Not(HasSubstr("data-error")));
+  const std::vector<std::string> figures = parted(noted(page));
+  ASSERT_EQ(figures.size(), 3u);
+  for (const std::string& svg : figures) {
+    EXPECT_THAT(svg, ::testing::StartsWith("&lt;svg xmlns=\"http://www.w3.org/2000/svg\""));
     EXPECT_THAT(svg, AllOf(HasSubstr("fill=\"#ffffff\""), HasSubstr("stroke:"), Not(HasSubstr("class=")),
                            Not(HasSubstr("var("))));
     EXPECT_THAT(svg, ::testing::EndsWith("&lt;/svg&gt;"));
@@ -347,24 +363,26 @@ TEST_F(Browser, ChoosesTheTimeOfMembershipFunctions) {
 
 /// What is folded away has its numbers and its drawing for those who unfold it.
 TEST_F(Browser, KeepsFiguresThatAreFoldedAway) {
-  const std::string copy =
-      "Object.defineProperty(navigator, 'clipboard', { value: { writeText: async text => note(text) } });";
-  const auto copied = [&](const std::string& figure) {
-    const std::string page =
-        opened(example::sensitive(), copy + "document.querySelector('" + figure + " .keep button').click();");
-    EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
-    return noted(page);
-  };
-  EXPECT_THAT(copied(".derivative"),
-              ::testing::StartsWith("time (s),\"derivative by &lt;mass&gt; (rad per kg), from\",to,"));
-  EXPECT_THAT(copied(".statistics"), ::testing::StartsWith("time (s),mean of the samples (rad),\u00b1 (rad),"));
-  EXPECT_THAT(copied(".convergence"), ::testing::StartsWith("samples,shoulder angle,elbow angle\n1024,0.04,0.05\n"));
-  const std::string saved =
-      noted(opened(example::sensitive(),
-                   "URL.createObjectURL = blob => { blob.text().then(note); return 'blob:none'; };"
-                   "HTMLAnchorElement.prototype.click = () => {};"
-                   "document.querySelector('.sensitivities .keep button:last-child').click();"));
-  EXPECT_THAT(saved, AllOf(HasSubstr("mass"), HasSubstr("first angle"), Not(HasSubstr("var("))));
+  const std::string page =
+      opened(example::sensitive(),
+             "const button = (figure, which) => document.querySelector(figure + ' .keep button' + which);"
+             "const copied = figure => new Promise(then => {"
+             "  const clipboard = { writeText: async text => then(text) };"
+             "  Object.defineProperty(navigator, 'clipboard', { value: clipboard, configurable: true });"
+             "  button(figure, '').click(); });"
+             "const saved = figure => new Promise(then => {"
+             "  URL.createObjectURL = blob => { blob.text().then(then); return 'blob:none'; };"
+             "  HTMLAnchorElement.prototype.click = () => {};"
+             "  button(figure, ':last-child').click(); });"
+             "note([await copied('.derivative'), await copied('.statistics'), await copied('.convergence'),"
+             "  await saved('.sensitivities')].join('|next|'));");
+  EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
+  const std::vector<std::string> texts = parted(noted(page));
+  ASSERT_EQ(texts.size(), 4u);
+  EXPECT_THAT(texts[0], ::testing::StartsWith("time (s),\"derivative by &lt;mass&gt; (rad per kg), from\",to,"));
+  EXPECT_THAT(texts[1], ::testing::StartsWith("time (s),mean of the samples (rad),\u00b1 (rad),"));
+  EXPECT_THAT(texts[2], ::testing::StartsWith("samples,shoulder angle,elbow angle\n1024,0.04,0.05\n"));
+  EXPECT_THAT(texts[3], AllOf(HasSubstr("mass"), HasSubstr("first angle"), Not(HasSubstr("var("))));
 }
 
 /// Lines and strokes of a quantity whose bands are filled are not; nothing is wider than a phone; and on paper there is
