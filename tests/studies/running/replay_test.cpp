@@ -170,7 +170,7 @@ TEST(Replay, HoldsForExtremesWhateverPointsThereAreBesides) {
 }
 
 TEST(Replay, HoldsForWorstCourses) {
-  std::string text = sampleStudy;
+  std::string text = sampleStudy + "[distribution]\ntimes = 0\n";
   text.insert(text.find("[[uncertain]]"),
               "[[uncertain]]\nquantity = \"gravity.z\"\ninterval = [-10, -9.6]\nvaries = \"freely\"\n");
   const Results results = resultsOf(text);

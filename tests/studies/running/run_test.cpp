@@ -601,7 +601,7 @@ std::string piecesOfARod(int count, const std::string& interval) {
 }
 
 TEST(Run, EnclosesManyUncertainQuantitiesWithoutBisectingThem) {
-  std::string text = piecesOfARod(300, "");
+  std::string text = piecesOfARod(150, "");
   text.replace(text.find("sobol"), 5, "random");
   const Results results = run(readStudyText(text, "s.toml"));
   EXPECT_EQ(results.comparison.verdict, Agreement::inside);
