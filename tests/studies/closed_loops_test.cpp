@@ -102,8 +102,7 @@ std::string onAnArm(int links, const std::vector<std::string>& axes) {
 
 /// With multipliers beside the inertia matrix enclosures of five and of six links ended before half a second.
 TEST(ClosedLoopStudy, IsThinAtTheEndOfAnArm) {
-  for (const auto& [links, axes] :
-       {std::pair<int, std::vector<std::string>>{3, {"z"}}, {5, {"z"}}, {10, {"z"}}, {6, {"z", "x"}}}) {
+  for (const auto& [links, axes] : {std::pair<int, std::vector<std::string>>{3, {"z"}}, {10, {"z"}}, {6, {"z", "x"}}}) {
     const Results results = run(machineOf(onAnArm(links, axes)), {});
     EXPECT_EQ(results.interval.reached, 1) << links << " " << results.interval.why;
     EXPECT_LE(results.interval.at.upper(1, 0) - results.interval.at.lower(1, 0), links < 10 ? 1e-8 : 1e-6) << links;
