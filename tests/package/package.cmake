@@ -2,6 +2,7 @@
 # only if its enclosure is right. Then rooms alone, and what the package refuses, in ROOMS. Headers are installed that
 # these programs and those of the GUIDES include, and what those include: no other, and none is missing.
 cmake_policy(VERSION 3.25)
+set(quickly -D CMAKE_CXX_FLAGS_RELEASE=-O1)  # of what is compiled here, which takes most of the time
 
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -15,7 +16,7 @@ endfunction()
 # Configures ROOMS for a component with such compiler flags; with a further argument it must fail, saying that.
 function(configure_rooms component flags)
   set(command ${CMAKE_COMMAND} -S ${ROOMS} -B ${BINARY}/rooms -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${COMPILER}
-    -D CMAKE_PREFIX_PATH=${BINARY}/prefix -D CMAKE_BUILD_TYPE=${CONFIG} "-D CMAKE_CXX_FLAGS=${flags}"
+    -D CMAKE_PREFIX_PATH=${BINARY}/prefix -D CMAKE_BUILD_TYPE=${CONFIG} "-D CMAKE_CXX_FLAGS=${flags}" ${quickly}
     -D COMPONENT=${component})
   file(REMOVE_RECURSE ${BINARY}/rooms)
   if(NOT ARGN)
@@ -49,7 +50,7 @@ endif()
 file(WRITE ${BINARY}/readme.cpp "${CMAKE_MATCH_1}")
 
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY}/build -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${COMPILER}
-  -D CMAKE_PREFIX_PATH=${BINARY}/prefix -D CMAKE_BUILD_TYPE=${CONFIG} "-D CMAKE_CXX_FLAGS=${FLAGS}"
+  -D CMAKE_PREFIX_PATH=${BINARY}/prefix -D CMAKE_BUILD_TYPE=${CONFIG} "-D CMAKE_CXX_FLAGS=${FLAGS}" ${quickly}
   -D README_PROGRAM=${BINARY}/readme.cpp)
 run(${CMAKE_COMMAND} --build ${BINARY}/build --config ${CONFIG})
 run(${BINARY}/build/outside)
