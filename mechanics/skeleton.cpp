@@ -37,19 +37,7 @@ class Seen final : public Onlooker {
     std::string key, frame;
     Axis axis;
   };
-  struct Shape {
-    Expression radius = 0.0, length = 0.0;
-    Axis axis = axisZ;
-    std::optional<ExpressionVector> size = std::nullopt;  // of a box
-    std::optional<Polyhedron> hull = std::nullopt;
-  };
-  static ExpressionVector zero() { return {0.0, 0.0, 0.0}; }
-
-  /// A frame that has the element's name is a shape's.
-  void movedFrame(const Word& word, std::string& name, const std::string& from) override {
-    if (word.key == "name") shape.emplace();
-    moved.push_back({from, name});
-  }
+  void movedFrame(const Word&, std::string& name, const std::string& from) override { moved.push_back({from, name}); }
   void carriesMass(const FixedPoint& centre, const Expression& mass) override { bodies.push_back({centre, mass}); }
   void drawsSpring(const FixedPoint& from, const FixedPoint& to) override { springs.push_back({from, to}); }
   void drawsLink(const FixedPoint& from, const FixedPoint& to) override { links.push_back({from, to}); }
@@ -59,19 +47,8 @@ class Seen final : public Onlooker {
   void jointAxis(const Word& word, Axis& axis, const std::string& frame) override {
     axes.push_back({word.key, frame, axis});
   }
-  void number(const Word& word, Expression& number) override {
-    if (shape && word.key == "radius") shape->radius = number;
-    if (shape && word.key == "length") shape->length = number;
-  }
-  void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const>, std::size_t) override {
-    if (shape && word.key == "size") std::ranges::copy(numbers, shape->size.emplace(zero()).begin());
-  }
-  void points(const Word&, std::vector<ExpressionVector>& points) override {
-    if (const auto exact = exactPoints(points); shape && exact) shape->hull.emplace(*exact);
-  }
-  void axis(const Word&, Axis& axis) override {
-    if (shape) shape->axis = axis;
-  }
+  void drawsShape(const SeenShape& what) override { shape = what; }
+  void drawsPlay(const Expression& clearance) override { play = clearance; }
   void coordinate(const Word&, Expression&, Coordinate kind, const Word&, Expression&) override {
     ++(kind == Coordinate::angle ? turns : slides);
   }
@@ -82,7 +59,8 @@ class Seen final : public Onlooker {
   std::vector<Line> springs, links;
   std::vector<Joint> joints;
   std::vector<JointAxis> axes;
-  std::optional<Shape> shape;
+  std::optional<SeenShape> shape;
+  std::optional<Expression> play;  // its clearance
   int turns = 0, slides = 0;
 };
 
@@ -109,8 +87,8 @@ class Finder {
         continue;
       }
       const std::size_t first = pointOf(from), second = pointOf(to);
-      skeleton.parts.push_back(
-          {name, element.type(), isJoint ? joint : rigid, first, second, seen.turns, seen.slides, 0.0});
+      skeleton.parts.push_back({name, element.type(), seen.play ? play : (isJoint ? joint : rigid), first, second,
+                                seen.turns, seen.slides, 0.0, seen.play.value_or(0.0)});
     }
     for (const auto& [centre, mass] : seen.bodies) {
       const std::size_t first = pointOf(centre.frame), second = pointOf(name + ".centre", centre);
@@ -135,15 +113,16 @@ class Finder {
   }
 
   /// By lines between points of the shape's own frame: a segment, or the edges of a box or a polyhedron.
-  void addShape(const Described& element, const Seen::Shape& shape) {
+  void addShape(const Described& element, const SeenShape& shape) {
     const std::string& name = element.name();
+    const ExpressionVector middle = {0.0, 0.0, 0.0};
     const auto add = [&](std::size_t from, std::size_t to) {
       skeleton.parts.push_back({name, element.type(), Skeleton::Kind::shape, from, to, 0, 0, 0.0, shape.radius});
     };
     if (shape.size) {
       std::array<std::size_t, 8> corners{};
       for (unsigned corner = 0; corner < 8; ++corner) {
-        ExpressionVector place = Seen::zero();
+        ExpressionVector place = middle;
         for (std::size_t i = 0; i < 3; ++i)
           place[i] = Expression((corner >> i & 1U) != 0 ? 0.5 : -0.5) * (*shape.size)[i];
         corners[corner] = pointOf(name + ".corner" + std::to_string(corner + 1), {name, place});
@@ -153,15 +132,18 @@ class Finder {
           if ((corner & along) == 0) add(corners[corner], corners[corner | along]);
       return;
     }
-    if (shape.hull) {
+    if (!shape.points.empty()) {
+      const auto exact = exactPoints(shape.points);
+      if (!exact) return;
+      const Polyhedron hull(*exact);
       std::vector<std::size_t> corners;
-      for (const Polyhedron::Point& corner : shape.hull->corners())
+      for (const Polyhedron::Point& corner : hull.corners())
         corners.push_back(pointOf(name + ".corner" + std::to_string(corners.size() + 1),
                                   {name, {enclosureOf(corner[0]), enclosureOf(corner[1]), enclosureOf(corner[2])}}));
-      for (const Polyhedron::Edge& edge : shape.hull->edges()) add(corners[edge.from], corners[edge.to]);
+      for (const Polyhedron::Edge& edge : hull.edges()) add(corners[edge.from], corners[edge.to]);
       return;
     }
-    std::array<ExpressionVector, 2> ends = {Seen::zero(), Seen::zero()};
+    std::array<ExpressionVector, 2> ends = {middle, middle};
     const std::array<Interval, 3> axis = shape.axis.enclosure();
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t end = 0; end < 2; ++end)

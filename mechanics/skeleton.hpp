@@ -29,6 +29,7 @@ struct Skeleton {
     mass,    ///< `from` is the frame that it is fixed to, `to` its centre
     spring,  ///< a load between two points
     shape,   ///< all within `radius` of the line between two points: a sphere, a capsule, an edge of a box or a hull
+    play,    ///< `to` lies off `from` within the clearance `radius`
   };
   struct Part {
     std::string name, type;  ///< as in the study

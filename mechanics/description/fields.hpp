@@ -93,6 +93,15 @@ struct HeldRows {
   std::size_t count() const { return (along ? 1U : 0U) + (across ? 2U : 0U) + (parallel ? 2U : 0U); }
 };
 
+/// How a shape is seen in its own frame: all within `radius` of the middle, of a segment along `axis`, of a box or of a
+/// polyhedron.
+struct SeenShape {
+  Expression radius = 0.0, length = 0.0;  ///< m; the latter of the segment
+  Axis axis = axisZ;
+  std::optional<ExpressionVector> size = std::nullopt;  ///< of the box, along its edges [m]
+  std::vector<ExpressionVector> points = {};            ///< whose hull is the polyhedron [m]
+};
+
 class Fields {
  public:
   Fields() = default;
@@ -115,6 +124,9 @@ class Fields {
   /// As rigid between these points, or as a joint at one of them, of so many freedoms, about or along its jointAxis.
   virtual void drawsLink(const FixedPoint& /*from*/, const FixedPoint& /*to*/) {}
   virtual void drawsJoint(const FixedPoint& /*at*/, int /*turns*/, int /*slides*/) {}
+  /// The frame that it moves as a shape, or as what lies off the other within this clearance [m].
+  virtual void drawsShape(const SeenShape& /*shape*/) {}
+  virtual void drawsPlay(const Expression& /*clearance*/) {}
   /// One of the words.
   virtual void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) = 0;
   /// A direction fixed in the frames.

@@ -11,6 +11,7 @@ void Cuboid::describe(Fields& f) {
   f.numbers({"size", "m", "of its edges along x, y and z", true}, size, components, 3);
   f.vector({"centre", "m", "in `at`; its origin unless given"}, centre);
   f.rotations({"rotation", "rad", "of its edges against the axes of `at`: " + orientationForms}, rotation);
+  f.drawsShape({0.0, 0.0, axisZ, size});
 }
 
 template <class S>

@@ -11,6 +11,7 @@ void Capsule::describe(Fields& f) {
   f.number({"length", "m", "of the segment, from the centre of one end to that of the other", true}, length);
   f.axis({"axis", "", "of the segment, in `at`; `\"z\"` unless given"}, axis);
   f.vector({"centre", "m", "the middle of the segment, in `at`; its origin unless given"}, centre);
+  f.drawsShape({radius, length, axis});
 }
 
 template <class S>

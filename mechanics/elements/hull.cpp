@@ -16,6 +16,7 @@ void Hull::describe(Fields& f) {
            points);
   f.number({"radius", "m", "what lies within it of the hull belongs to the shape; 0 unless given"}, radius);
   f.vector({"centre", "m", "where the points are counted from, in `at`; its origin unless given"}, centre);
+  f.drawsShape({radius, 0.0, axisZ, std::nullopt, points});
 }
 
 template <class S>

@@ -33,6 +33,7 @@ void Play::describe(Fields& f) {
             "e, e the coordinate axis that is most across it"},
            direction);
   f.number({"axial", "m", "how far off along the axis"}, axial);
+  f.drawsPlay(clearance);
 }
 
 template <class S>
@@ -66,6 +67,7 @@ void GuidePlay::describe(Fields& f) {
   f.number({"front", "1", "how far its end in the direction of `axis` lies off, from -1 to 1, of the clearance"},
            front);
   f.number({"rear", "1", "likewise, its other end"}, rear);
+  f.drawsPlay(clearance);
 }
 
 template <class S>

@@ -9,6 +9,7 @@ void Sphere::describe(Fields& f) {
   describeShape(f, name, at);
   f.number({"radius", "m", "0, a point, unless given"}, radius);
   f.vector({"centre", "m", "in `at`; its origin unless given"}, centre);
+  f.drawsShape({radius});
 }
 
 template <class S>

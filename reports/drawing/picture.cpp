@@ -34,6 +34,7 @@ std::string titleOf(const PartInfo& part) {
   std::string words = part.name + " (" + part.type;
   if (const Told told("kg", part.told); part.kind == PartKind::mass)
     words += ", " + inUnit(numberText(told.of(part.mass), 6), told.unit());
+  if (part.kind == PartKind::play) words += ", " + inUnit(numberText(part.radius, 4), "m") + " to either side";
   return titleOf(words + ")");
 }
 
@@ -50,6 +51,7 @@ class Builder {
     addGround();
     for (const PartInfo& part : m_.parts) addShape(part);
     for (const PartInfo& part : m_.parts) addLine(part);
+    for (const PartInfo& part : m_.parts) addPlay(part);
     for (const PartInfo& part : m_.parts)
       if (part.kind == PartKind::mass) addMass(part);
     for (std::size_t i = 0; i < m_.parts.size(); ++i) addJoint(i);
@@ -72,6 +74,8 @@ class Builder {
   void add(Form form, const PartInfo& part, const std::string& look) {
     add(form, part.from, part.to, "nominal", look, titleOf(part));
   }
+  /// Play is told as numbers, which no motion changes.
+  static bool isFixedOn(const PartInfo& part) { return part.kind == PartKind::rigid || part.kind == PartKind::play; }
   std::size_t numberOf(PartKind kind) const {
     return static_cast<std::size_t>(std::ranges::count(m_.parts, kind, &PartInfo::kind));
   }
@@ -92,7 +96,7 @@ class Builder {
     for (std::size_t k = 0; k < m_.points.size(); ++k)
       if (!staysPut(k)) s_.moving.push_back(k);
     for (const PartInfo& part : m_.parts)
-      if ((part.kind == PartKind::rigid || part.kind == PartKind::mass) && part.from != part.to)
+      if ((isFixedOn(part) || part.kind == PartKind::mass) && part.from != part.to)
         s_.links.emplace_back(part.from, part.to);
   }
 
@@ -109,7 +113,7 @@ class Builder {
   std::uint64_t footOf(std::uint64_t point) const {
     for (std::size_t step = 0; step < m_.parts.size(); ++step) {
       const auto below = std::ranges::find_if(m_.parts, [&](const PartInfo& part) {
-        return part.kind == PartKind::rigid && part.to == point && part.from != point && m_.points[part.from].isGround;
+        return isFixedOn(part) && part.to == point && part.from != point && m_.points[part.from].isGround;
       });
       if (below == m_.parts.end()) break;
       point = below->from;
@@ -142,7 +146,7 @@ class Builder {
   }
 
   void addLine(const PartInfo& part) {
-    if (part.from == part.to || part.kind == PartKind::shape) return;
+    if (part.from == part.to || part.kind == PartKind::shape || part.kind == PartKind::play) return;
     const bool slides = part.kind == PartKind::joint && part.slides == 1 && part.turns <= 1,
                isSpring = part.kind == PartKind::spring;
     add(isSpring ? Form::zigzag : Form::line, part,
@@ -151,6 +155,16 @@ class Builder {
                 : isSpring                    ? "spring"
                 : slides                      ? "rail"
                                               : "loose"));
+  }
+
+  /// The hole that a pin has play in, or the room of a slider's ends: a ring about what it lies off, mostly larger than
+  /// it is.
+  void addPlay(const PartInfo& part) {
+    constexpr double least = 10, most = 1e4;
+    if (part.kind != PartKind::play) return;
+    add(Form::circle, part.from, part.from, "nominal",
+        fmt::format("class=\"play\" r=\"{:.1f}\"", std::clamp(part.radius * s_.view.scale, least, most)),
+        titleOf(part));
   }
 
   void addMass(const PartInfo& part) {

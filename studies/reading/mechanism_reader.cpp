@@ -738,6 +738,18 @@ std::vector<std::pair<std::string, std::string>> assumptionsIn(const Mechanism& 
   return notes;
 }
 
+/// Whether elements of this type close loops.
+bool closesLoops(const std::string& type, std::vector<Described> types) {
+  class Finder final : public Onlooker {
+   public:
+    void dependentCoordinates(const Word&, std::vector<std::string>&, const Loop&) override { closes = true; }
+    bool closes = false;
+  } finder;
+  const auto found = std::ranges::find(types, type, &Described::type);
+  if (found != types.end()) found->describe(finder);
+  return finder.closes;
+}
+
 /// "`redundant = 3` of 'D', which assumes that …, as it seems": where a single loop that states none would close with
 /// rows that follow from the others; empty where none would.
 std::string seemingRedundancy(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
@@ -747,7 +759,7 @@ std::string seemingRedundancy(const TomlSource& source, const toml::table& table
   for (std::size_t i = 0; elements != nullptr && i < elements->size(); ++i) {
     const toml::table* element = (*elements)[i].as_table();
     const auto type = element == nullptr ? std::optional<std::string>() : (*element)["type"].value<std::string>();
-    if (!type || (*type != "closure" && *type != "rod") || element->contains("redundant")) continue;
+    if (!type || !closesLoops(*type, types) || element->contains("redundant")) continue;
     const std::string name = (*element)["name"].value_or(std::string());
     for (std::size_t rows = 1; rows <= most; ++rows) try {
         const ReadMechanism trial = MechanismReader(source, table, types, files, {}, {{name, rows}}).read();

@@ -30,14 +30,15 @@ std::vector<Field> fieldsOfPart(PartInfo& p) {
       {"part", &p.name, unit::none, "name of the element"},
       {"type", &p.type, unit::none, "its type in the study"},
       {"kind", Choice::of(p.kind), unit::none,
-       "\"rigid\", \"joint\", \"mass\" (from a frame to its centre), \"spring\" or \"shape\""},
+       "\"rigid\", \"joint\", \"mass\" (from a frame to its centre), \"spring\", \"shape\" or \"play\""},
       {"from", &p.from, unit::none, "index of the point where it begins", allowed::count, scale::point},
       {"to", &p.to, unit::none, "index of the point where it ends", allowed::count, scale::point},
       {"turns", &p.turns, unit::none, "of a joint: in how many ways it turns", allowed::count},
       {"slides", &p.slides, unit::none, "of a joint: in how many ways it slides", allowed::count},
       {"mass", &p.mass, "kg", "nominal mass", allowed::finite},
       fresh({"told", &p.told, unit::none, "unit in which the page tells the mass, as the study states it; empty: kg"}),
-      fresh({"radius", &p.radius, "m", "of a shape, about the line between its points, nominal", allowed::finite})};
+      fresh({"radius", &p.radius, "m",
+             "of a shape, about the line between its points, or of play, to either side, nominal", allowed::finite})};
 }
 
 std::vector<Field> fieldsOfAxis(AxisInfo& a) {

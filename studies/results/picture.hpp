@@ -22,9 +22,9 @@ struct PointInfo {
 };
 
 /// In the order of Skeleton::Kind.
-enum class PartKind : unsigned char { rigid, joint, mass, spring, shape };
+enum class PartKind : unsigned char { rigid, joint, mass, spring, shape, play };
 template <>
-inline constexpr std::array<std::string_view, 5> words<PartKind>{"rigid", "joint", "mass", "spring", "shape"};
+inline constexpr std::array<std::string_view, 6> words<PartKind>{"rigid", "joint", "mass", "spring", "shape", "play"};
 
 /// Between two points, by index.
 struct PartInfo {
@@ -34,7 +34,7 @@ struct PartInfo {
   std::int64_t turns = 0, slides = 0;  ///< of a joint
   double mass = 0;                     ///< nominal, kg
   std::string told = {};               ///< unit in which people are told of it, as the study states it; empty: kg
-  double radius = 0;                   ///< of a shape, about the line between the points, nominal, m
+  double radius = 0;                   ///< of a shape, about the line between the points, or of play, nominal, m
 };
 
 struct AxisInfo {

@@ -41,6 +41,24 @@ TEST(Skeleton, JoinsWhatStandsTogether) {
   EXPECT_EQ(skeleton.axes[1].part, 3u);
 }
 
+TEST(Skeleton, ShowsPlayWhereItIs) {
+  Mechanism m;
+  m.add(Revolute{"hinge", "inertial", "K", axisZ});
+  m.add(Link{"rod", "K", "hole", {1.0, 0.0, 0.0}});
+  m.add(Play{.name = "slack", .from = "hole", .to = "pin", .clearance = 0.002, .eccentricity = 0.5});
+  m.add(GuidePlay{.name = "guide", .from = "pin", .to = "slider", .length = 0.1, .clearance = 0.001});
+  const Skeleton skeleton = skeletonOf(m, {"slack.direction", "guide.front"});
+  ASSERT_EQ(skeleton.parts.size(), 4u);
+  const Skeleton::Part &slack = skeleton.parts[2], &guide = skeleton.parts[3];
+  EXPECT_EQ(slack.kind, Kind::play);
+  EXPECT_EQ(skeleton.points[slack.from].name, "hole");
+  EXPECT_EQ(skeleton.points[slack.to].name, "pin");
+  EXPECT_TRUE(isEqual(m.rangeOf(slack.radius), Interval(0.002)));
+  EXPECT_EQ(guide.kind, Kind::play);
+  EXPECT_TRUE(isEqual(m.rangeOf(guide.radius), Interval(0.001)));
+  EXPECT_EQ(skeleton.parts[1].kind, Kind::rigid);
+}
+
 TEST(Skeleton, KeepsApartWhatMayComeApart) {
   Mechanism m;
   m.add(Revolute{"hinge", "inertial", "K", axisX});

@@ -67,6 +67,20 @@ TEST(MachinePicture, ShowsShapesInTheirWidth) {
   EXPECT_THAT(svg, AllOf(HasSubstr("class=\"shape\" stroke-width=\"1.2\""), HasSubstr("hand (sphere)")));
 }
 
+/// A ring that can be seen however small it is, and as large as it is where that is more.
+TEST(MachinePicture, ShowsPlay) {
+  PictureResult m = example::machine().picture;
+  m.parts.push_back({"pin", "play", PartKind::play, 1, 2, 0, 0, 0, "", 0.0042});
+  m.parts.push_back({"slot", "guide-play", PartKind::play, 0, 1, 0, 0, 0, "", 0.25});
+  const std::string svg = drawn(m);
+  EXPECT_EQ(count(svg, "class=\"play\""), 2u);
+  EXPECT_EQ(count(svg, "class=\"link\""), 2u);  // and no lines
+  std::ostringstream radius;
+  radius << std::fixed << std::setprecision(1) << 0.25 * sceneOf(m).view.scale;
+  EXPECT_THAT(svg, AllOf(HasSubstr("class=\"play\" r=\"10.0\""), HasSubstr("pin (play, 0.0042 m to either side)"),
+                         HasSubstr("class=\"play\" r=\"" + radius.str() + "\"")));
+}
+
 TEST(MachinePicture, HoldsNothingThatIsFree) {
   PictureResult m = moving({{0, 0, 0}});
   m.points.insert(m.points.begin(), {"inertial", true, true});
