@@ -70,10 +70,9 @@ std::string text(const Study& study, const AllowedDeviations& found, const Toler
       : found.together.factor > 0
           ? fmt::format("All requirements are met where all deviations are {} times as large as stated, or less.\n",
                         factorText(found.together, options.most))
-      : !found.nominal.empty() ? fmt::format("The nominal values themselves violate '{}'.\n", found.nominal)
-      : found.together.limit == "interrupted" || found.together.limit == "the time limit"
-          ? fmt::format("Nothing was found before the end: {}.\n", found.together.limit)
-          : "Not even for the nominal values are all requirements proved to be met.\n";
+      : !found.nominal.empty()   ? fmt::format("The nominal values themselves violate '{}'.\n", found.nominal)
+      : found.together.isUnknown ? fmt::format("Nothing was found before the end: {}.\n", found.together.limit)
+                                 : "Not even for the nominal values are all requirements proved to be met.\n";
   return head + textTable(rows);
 }
 

@@ -174,7 +174,8 @@ class Finder {
     }
     found.factor = least;
     if (least >= options_.most) found.limit.clear();
-    if (isCancelled())
+    found.isUnknown = isCancelled();
+    if (found.isUnknown)
       found.limit = options_.cancelled != nullptr && *options_.cancelled ? "interrupted" : "the time limit";
     return found;
   }

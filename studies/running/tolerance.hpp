@@ -26,6 +26,7 @@ struct AllowedDeviation {
   double factor = 0;       ///< 0: none is; `most` of the options: none greater was looked for
   Interval interval{0.0};  ///< of one quantity: what it may then be
   std::string limit;       ///< the requirement that a greater factor is not proved of; or why that is not known
+  bool isUnknown = false;  ///< the search was ended before
 };
 
 struct AllowedDeviations {
