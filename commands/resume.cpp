@@ -33,7 +33,9 @@ struct ResumeArguments : RunArguments {
   throw UsageError(
       fmt::format("{}: is not there, {}; expected the results of a run that was killed after its first "
                   "checkpoint",
-                  checkpoint, isThere ? results + " is whole" : "and neither is " + results + ": run the study again"));
+                  checkpoint,
+                  isThere ? results + " is there, to which gamut extend brings more samples"
+                          : "and neither is " + results + ": run the study again"));
 }
 
 Study studyOfPlan(const CheckpointPlan& plan, const std::string& path) {

@@ -85,18 +85,18 @@ class Projection {
 
  private:
   struct Layout {
-    std::shared_ptr<const Monomials> source;  // kept: its address is the key
     std::shared_ptr<const Monomials> own;
     std::vector<int> number;  // of each monomial of the source, rising; -1: it holds another symbol
   };
 
   /// Both enumerate the monomials that they have in common alike.
   const Layout& layoutOf(const std::shared_ptr<const Monomials>& source) {
-    Layout& layout = layouts_[source.get()];
-    if (layout.own) return layout;
     std::vector<int> weights;
+    for (int l = 0; l < source->symbols(); ++l) weights.push_back(source->weight(l));
+    Layout& layout = layouts_[{std::move(weights), source->degree()}];
+    if (layout.own) return layout;
+    weights.clear();
     for (const std::size_t l : kept_) weights.push_back(source->weight(static_cast<int>(l)));
-    layout.source = source;
     layout.own = std::make_shared<Monomials>(std::move(weights), source->degree());
     int next = 0;
     for (int g = 0; g < source->count(); ++g) {
@@ -111,7 +111,7 @@ class Projection {
   const FlowModels& models_;
   std::vector<std::size_t> kept_;
   std::vector<FlowSymbol> quantities_;
-  std::map<const Monomials*, Layout> layouts_;
+  std::map<std::pair<std::vector<int>, int>, Layout> layouts_;  // by weights and degree of the source
 };
 
 /// Cells that tile the box, each with what is known of it. Alternatives that are cut in different symbols would make

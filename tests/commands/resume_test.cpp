@@ -150,7 +150,10 @@ TEST_F(Resume, SaysWhatThereIsInstead) {
   EXPECT_EQ(said("resume s.h5"),
             "gamut: s.h5.checkpoint: is not there, and neither is s.h5: run the study again; expected the results of a "
             "run that was killed after its first checkpoint\n");
-  EXPECT_THAT(said("resume whole.h5"), HasSubstr("whole.h5.checkpoint: is not there, whole.h5 is whole; expected"));
+  EXPECT_THAT(
+      said("resume whole.h5"),
+      HasSubstr(
+          "whole.h5.checkpoint: is not there, whole.h5 is there, to which gamut extend brings more samples; expected"));
   folder_.write("s.h5.checkpoint", "something else");
   EXPECT_THAT(said("resume s.h5"), HasSubstr("s.h5.checkpoint: is no checkpoint"));
   EXPECT_THAT(said("run s.toml"), HasSubstr("s.h5.checkpoint: is of a run that was killed; expected gamut resume s.h5, "
