@@ -348,6 +348,7 @@ std::string jsonSummary(const Results& results, const Finding& finding, const Re
   json["excursion"] = number(results.comparison.excursion);
   json["overestimation"] = overestimationObject(results);
   json["dependence"] = textOrNull(results.dependence);
+  json["assembly"] = textOrNull(results.assembly);
   json["assumptions"] = textOrNull(results.assumptions);
   json["tightness"] = number(results.interval.tightness);
   json["shortfall"] = textOrNull(results.interval.shortfall);

@@ -288,6 +288,7 @@ std::string textSummary(const Results& results) {
   for (const std::string& line : approachLines(results, approachesOf(results)))
     text += fmt::format("  closest approach: {}\n", line);
   if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
+  if (!results.assembly.empty()) text += fmt::format("  assembled at the nominal start: {}\n", results.assembly);
   if (!results.assumptions.empty()) text += fmt::format("  assumed, not proved: {}\n", results.assumptions);
   text += statisticsText(results);
   text += transformationText(results);

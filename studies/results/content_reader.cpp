@@ -60,6 +60,7 @@ class ContentReader {
   void readRecord(const Group& group, const Hdf5Reader& in) {
     for (const Field& field : group.fields(0)) {
       const std::string name(field.name);
+      if (field.isNew && !in.hasAttribute(name)) continue;
       std::visit(Visitor{[&](double* x) { *x = in.number(name); }, [&](std::int64_t* x) { *x = in.integer(name); },
                          [&](std::uint64_t* x) { *x = in.natural(name); }, [&](bool* x) { *x = in.integer(name) != 0; },
                          [&](std::string* x) { *x = in.text(name); },

@@ -116,7 +116,7 @@ struct Field {
   Allowed allowed;
   std::string_view indexOf;  ///< of an index: the dimension, whose extent it lies below
   bool isNoise = false;      ///< its digits follow no rule that compression could use
-  bool isNew = false;        ///< of a list: files of this format may be without it, and leave it as it is
+  bool isNew = false;        ///< files of this format may be without it, and leave it as it is
 
   Field(std::string_view itsName, FieldValue where, std::string_view itsUnit, std::string_view whatItIs,
         Allowed between = allowed::anything, std::string_view indexInto = "")

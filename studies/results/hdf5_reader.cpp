@@ -205,6 +205,14 @@ bool Hdf5Reader::has(const std::string& name) const {
   });
 }
 
+bool Hdf5Reader::hasAttribute(const std::string& name) const {
+  return transcript_->answer<bool>([&] {
+    const htri_t found = H5Aexists(*group_, name.c_str());
+    if (found < 0) throw Hdf5Error(name);
+    return found > 0;
+  });
+}
+
 double Hdf5Reader::number(const std::string& attribute) const {
   return transcript_->answer<double>(
       [&] { return readAttribute<double>(*group_, attribute, H5T_NATIVE_DOUBLE, H5T_FLOAT); });

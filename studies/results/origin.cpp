@@ -25,6 +25,9 @@ std::vector<Field> fieldsOfStudy(Origin& o) {
            "empty where they are independent"},
           {"assumptions", &o.assumptions, unit::none,
            "on which all answers rest, but which cannot be proved; empty where there are none"},
+          fresh({"assembly", &o.assembly, unit::none,
+                 "where loops close at the nominal start, of the ways in which they may: the coordinates that follow "
+                 "from others; empty where there are none"}),
           {"seed", &o.seed, unit::none, "of the samples"},
           {"horizon", &o.horizon, unit::second, "time asked for; 0 where none passes", allowed::finite},
           {"version", &o.version, unit::none, "of Gamut"},

@@ -83,6 +83,7 @@ struct Origin {
   std::string dependence;    ///< of the uncertain quantities, in words, and whether several distributions are
                              ///< possible; empty where they are independent
   std::string assumptions;   ///< on which all answers rest, but which cannot be proved; empty where there are none
+  std::string assembly;      ///< where loops close at the nominal start; empty where there are none
   double horizon = 0;        ///< s
   std::vector<double> time;  ///< output times, s
   Limits limits;

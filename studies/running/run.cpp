@@ -10,12 +10,14 @@
 #include <utility>
 
 #include "analyses/consistency.hpp"
+#include "mechanics/assembly.hpp"
 #include "studies/assumed_rows.hpp"
 #include "studies/printable.hpp"
 #include "studies/running/run_memory.hpp"
 #include "studies/running/units.hpp"
 #include "studies/told.hpp"
 #include "studies/version.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -54,6 +56,22 @@ std::string assumptionsText(const Study& study) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
+/// "pin: coupler.angle = -0.552 rad, rocker.angle = 1.6 rad; …".
+std::string assemblyText(const Study& study) {
+  const Mechanism& mechanism = study.mechanism;
+  if (!mechanism.isClosed() || study.analysis == Study::Analysis::equilibria) return {};
+  const Assembly<double> assembly(mechanism);
+  std::vector<std::string> texts;
+  for (const Mechanism::Closed& loop : mechanism.loops()) {
+    std::vector<std::string> places;
+    for (const std::string& name : loop.by)
+      places.push_back(
+          fmt::format("{} = {}", name, inUnit(numberText(assembly.output(name), 6), mechanism.unitOf(name))));
+    texts.push_back(fmt::format("{}: {}", loop.element, fmt::join(places, ", ")));
+  }
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 /// The part of the results that is known before anything runs. Words as they are read back from a file.
 Results withOrigin(const Run& run) {
   const Study& study = run.study;
@@ -78,6 +96,7 @@ Results withOrigin(const Run& run) {
   origin.time = study.times;
   origin.dependence = dependenceText(study);
   origin.assumptions = assumptionsText(study);
+  origin.assembly = assemblyText(study);
   for (const UncertainQuantity& q : study.uncertain) {
     const Uncertain& u = q.uncertain;
     origin.uncertain.push_back({u.name, q.quantity, q.unit, u.range.lower(), u.nominal, u.range.upper(),

@@ -84,11 +84,11 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
   EXPECT_THAT(keysOf(json),
-              ElementsAre("advice", "alpha_cuts", "approaches", "assumptions", "cost", "dependence", "derivatives",
-                          "distribution", "enclosure", "envelope", "equilibria", "excursion", "files", "horizon",
-                          "integrated", "limits", "modes", "outputs", "overestimation", "postures", "reached",
-                          "requirements", "samples", "sensitivity", "shortfall", "statistics", "stopped", "tightness",
-                          "verdict", "version", "why", "witness", "workspace"));
+              ElementsAre("advice", "alpha_cuts", "approaches", "assembly", "assumptions", "cost", "dependence",
+                          "derivatives", "distribution", "enclosure", "envelope", "equilibria", "excursion", "files",
+                          "horizon", "integrated", "limits", "modes", "outputs", "overestimation", "postures",
+                          "reached", "requirements", "samples", "sensitivity", "shortfall", "statistics", "stopped",
+                          "tightness", "verdict", "version", "why", "witness", "workspace"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("advice", "derivatives", "distribution", "equations", "equilibria",
                                                 "fuzzy", "interval", "memory", "modes", "postures", "report",

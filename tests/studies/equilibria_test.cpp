@@ -857,10 +857,12 @@ TEST_P(ShapesOfChains, AreThoseOfTheirPencils) {
   const Machine machine = machineOf(chain(many, tolerance, frequencies(many) + shapes, "\"interval\""));
   const Results results = run(machine, {});
   const ModesResult& found = results.of<ModesResult>();
-  ASSERT_GE(found.number.size(), alone) << found.why;
-  EXPECT_EQ(found.why == "", found.number.size() == many);
+  ASSERT_GE(std::ssize(found.number), alone) << found.why;
+  EXPECT_EQ(found.why.empty(), std::ssize(found.number) == many);
   for (std::size_t k = 0; k < found.number.size(); ++k) {
-    if (static_cast<int>(k) < alone) EXPECT_EQ(found.first[k], found.last[k]) << k + 1;
+    if (static_cast<int>(k) < alone) {
+      EXPECT_EQ(found.first[k], found.last[k]) << k + 1;
+    }
     EXPECT_EQ(found.lower(k, found.reference[k] - 1), 1);
     EXPECT_EQ(found.upper(k, found.reference[k] - 1), 1);
   }

@@ -37,6 +37,7 @@ inline Results sampleResults() {
   r.title = "A sample with an α";
   r.analysis = "dynamics";
   r.seed = 0xFFFFFFFFFFFFFFFFU;
+  r.assembly = "pin: coupler.angle = -0.5 rad";
   r.version = "9.8.7";
   r.host = "somewhere";
   r.date = "2024-02-29T12:00:00Z";

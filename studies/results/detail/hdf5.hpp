@@ -131,6 +131,7 @@ class Hdf5Reader {
   Hdf5Reader(const Hdf5Reader& parent, const std::string& name);
 
   bool has(const std::string& name) const;
+  bool hasAttribute(const std::string& name) const;
   double number(const std::string& attribute) const;
   std::int64_t integer(const std::string& attribute) const;
   std::uint64_t natural(const std::string& attribute) const;

@@ -1,6 +1,7 @@
 // What is written is what is read; a file explains itself; a write that fails or is killed leaves the old file.
 #include "studies/results/results_file.hpp"
 #include "studies/analyses/derivatives.hpp"
+#include "studies/analyses/modes.hpp"
 
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -122,6 +123,7 @@ TEST_F(ResultsFile, CompressesLargeGrids) {
   results.distribution = {};
   results.sensitivity = {};
   results.of<DerivativeResult>() = {};
+  results.of<ModesResult>() = {};
   results.surrogate = {};
   results.requirements = {};
   results.margins = {};
@@ -167,20 +169,25 @@ TEST_F(ResultsFile, OfAnOlderBuildIsRefusedWithItsFormat) {
   }
 }
 
-/// Files of this format that were written before units were kept: quantities are told in SI units.
+/// Files of this format that were written before units and assemblies were kept: quantities are told in SI units.
 TEST_F(ResultsFile, WithoutStatedUnitsIsReadAll) {
   Results results = sampleResults();
   results.uncertain[0].told = "deg";
+  results.assembly = "pin: coupler.angle = 1 rad";
   writeResults(results, path_);
   EXPECT_EQ(readResults(path_).uncertain[0].told, "deg");
+  EXPECT_EQ(readResults(path_).assembly, results.assembly);
   {
     const Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path_);
     ASSERT_GE(H5Ldelete(file, "/study/uncertain/told", H5P_DEFAULT), 0);
+    ASSERT_GE(H5Adelete_by_name(file, "/study", "assembly", H5P_DEFAULT), 0);
   }
   std::ifstream in(path_, std::ios::binary);
   const std::string bytes = sealed({std::istreambuf_iterator<char>(in), {}});
   std::ofstream(path_, std::ios::binary) << bytes;
-  EXPECT_THAT(differences(readResults(path_), sampleResults()), IsEmpty());
+  Results older = sampleResults();
+  older.assembly.clear();
+  EXPECT_THAT(differences(readResults(path_), older), IsEmpty());
 }
 
 TEST_F(ResultsFile, IsRefusedIfItsNumbersMakeNoSense) {
