@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <span>
 
@@ -119,13 +118,8 @@ class Sentence {
   /// That it is violated, as far as that is proved.
   std::string probability() const {
     constexpr double telling = 0.5;
-    const double least = 1 - r_.probabilityUpper, most = 1 - r_.probabilityLower;
-    if (!isProbabilityProved(results_) || !(most - least < telling)) return {};
-    const auto [from, to] = outwardBounds(std::max(least, 0.0), most, 1, 2, 1e-3);
-    return from == to   ? fmt::format(" The proved probability of that is {}.", from)
-           : least <= 0 ? fmt::format(" The proved probability of that is {} at most.", atMostText(most, 4))
-                        : fmt::format(" The proved probability of that is {} to {}.", from,
-                                      std::strtod(to.c_str(), nullptr) >= 1 ? "1" : to);
+    if (!isProbabilityProved(results_) || !(r_.probabilityUpper - r_.probabilityLower < telling)) return {};
+    return fmt::format(" The proved probability of that is {}.", violationProbability(r_));
   }
 
   /// Whether each value of the violation is an end of its interval, but for roundings.
@@ -201,7 +195,7 @@ std::string whereIs(const Results& results, std::size_t output) {
   if (results.horizon == 0)
     return fmt::format("{}\u201c{}\u201d lies between {} and {}{}.", begin, info.name, from, greatest, end);
   const double size = motionSize(results, output);
-  return fmt::format("{}\u201c{}\u201d stays between {} and {} from {} to {}{}{}.{} At {}, cases differ by {} at most.",
+  return fmt::format("{}\u201c{}\u201d stays between {} and {} from {} to {}{}{}.{} At {}, its spread is {} at most.",
                      begin, info.name, from, greatest, timeText(results.time.front()), reachedText(range->until),
                      range->isBetween ? "" : " (looked at the output times)", end, extremesText(results, *range),
                      range->isAtAllTimes ? "any output time" : "the times that are known",

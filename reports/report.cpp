@@ -20,8 +20,7 @@ struct Section {
   std::string (*html)(const Report& report);
 };
 
-constexpr Section sections[] = {{"Requirements", "demands", requirementsSection},
-                                {"What was asked", "asked", askedSection},
+constexpr Section sections[] = {{"What was asked", "asked", askedSection},
                                 {"The machine", "moving", machineSection},
                                 {"Workspace", "workspaces", workspaceSection},
                                 {"Modes", "modes", modesSection},
@@ -33,12 +32,20 @@ constexpr Section sections[] = {{"Requirements", "demands", requirementsSection}
                                 {"Samples", "samples", samplesSection},
                                 {"Provenance", "origin", provenanceSection}};
 
-std::string sectionsOf(const Report& report) {
-  std::string text;
+/// The sections, and links to them, the summary first.
+struct SectionTexts {
+  std::string html, links = "<a href=\"#found\">Summary</a>";
+};
+
+SectionTexts sectionsOf(const Report& report) {
+  SectionTexts texts;
   for (const auto& [title, name, html] : sections)
-    if (const std::string content = html(report); !content.empty())
-      text += fmt::format("<section class=\"{}\">\n<h2>{}</h2>\n{}</section>\n", name, title, content);
-  return text;
+    if (const std::string content = html(report); !content.empty()) {
+      texts.html +=
+          fmt::format("<section class=\"{0}\" id=\"{0}\">\n<h2>{1}</h2>\n{2}</section>\n", name, title, content);
+      texts.links += fmt::format("<a href=\"#{}\">{}</a>", name, title);
+    }
+  return texts;
 }
 
 /// What chooses times and copies figures; on pages with plots over time the numbers and what draws them; what moves the
@@ -50,9 +57,8 @@ std::string scriptsOf(const Report& report) {
     scripts += fmt::format("<script type=\"application/json\" id=\"times\">{}</script>\n<!--\n{}\n-->\n", data,
                            page::plottingLicence) +
                scriptElement(page::plottingScript) + scriptElement(page::axesScript) + scriptElement(page::pageScript);
-  return report.results.picture.present
-             ? scripts + scriptElement(page::sceneScript) + scriptElement(page::machineScript)
-             : scripts;
+  if (report.results.picture.present) scripts += scriptElement(page::sceneScript) + scriptElement(page::machineScript);
+  return scripts + scriptElement(page::clockScript);
 }
 
 /// With so much detail.
@@ -64,6 +70,7 @@ std::string rendered(const Results& results, const Verdict& verdict, const Detai
                       membershipFigures(results, detail),
                       probabilityPlots(results, detail),
                       sensitivityPlots(results, detail)};
+  const SectionTexts texts = sectionsOf(report);
   return filledPage({{"run", results.stopped.empty() ? "whole" : "partial"},
                      {"title", escapeHtml(titleOf(results))},
                      {"summary", escapeHtml(summaryLine(results))},
@@ -71,7 +78,10 @@ std::string rendered(const Results& results, const Verdict& verdict, const Detai
                      {"layers", report.outputs.style + report.probabilities.style + report.sensitivities.style},
                      {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
                      {"first", firstSection(report)},
-                     {"sections", sectionsOf(report)},
+                     {"chips", chipsOf(report)},
+                     {"links", texts.links},
+                     {"clock", clockOf(results)},
+                     {"sections", texts.html},
                      {"scripts", scriptsOf(report)}});
 }
 

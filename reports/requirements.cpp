@@ -31,12 +31,6 @@ std::string rangeOfShare(double lower, double upper) {
   return fmt::format("{} to {}", numberIn(low) <= 0 ? "0" : low, numberIn(high) >= 1 ? "1" : high);
 }
 
-/// Rounded down, in per cent.
-std::string percentText(double share) {
-  const double percent = std::floor(1000 * share) / 10;
-  return numberText(percent, 4) + " %";
-}
-
 /// "first angle 136.298 deg": the digits tell values within the interval apart.
 std::string valueText(const UncertainInfo& quantity, double value) {
   const Told told(quantity);
@@ -133,12 +127,11 @@ class RequirementWording {
   std::string probable() const {
     std::vector<std::string> parts;
     const bool isProved = results_.interval.present || results_.fuzzy.present;
-    const std::string proved = rangeOfShare(r_.probabilityLower, r_.probabilityUpper);
-    if (isProved && proved == nothing)
+    if (isProved && rangeOfShare(r_.probabilityLower, r_.probabilityUpper) == nothing)
       parts.push_back("nothing is proved of the probability" +
                       (r_.word == Decision::partly && !r_.why.empty() ? ": " + r_.why : ""));
     else if (isProved)
-      parts.push_back(fmt::format("met with a probability of {}, proved", proved));
+      parts.push_back(fmt::format("violated with a probability of {}, proved", violationProbability(r_)));
     if (r_.samples > 0) {
       std::string share = fmt::format("{} of {} samples meet it{}", r_.samples - r_.violating, r_.samples,
                                       results_.horizon > 0 ? " at the output times" : "");
@@ -202,6 +195,20 @@ bool isViolated(const RequirementResult& requirement) {
 
 }  // namespace
 
+std::string violationProbability(const RequirementResult& requirement) {
+  // 1 - p is exact from 0.5 to 1 (Sterbenz) and at 0; else its next neighbour bounds it.
+  const auto complement = [](double p, double towards) {
+    return p == 0 || p >= 0.5 ? 1 - p : std::nextafter(1 - p, towards);
+  };
+  const double least = complement(requirement.probabilityUpper, 0), most = complement(requirement.probabilityLower, 1);
+  if (least == most) return numberText(most, 6);
+  if (least == 0) return atMostText(most, 4) + " at most";
+  const auto [from, to] = outwardBounds(least, most, 1, 2, 1e-3);
+  return fmt::format("{} to {}", from, numberIn(to) >= 1 ? "1" : to);
+}
+
+std::string percentText(double share) { return numberText(std::floor(1000 * share) / 10, 4) + " %"; }
+
 bool variesInTime(const UncertainInfo& quantity) { return quantity.distribution.starts_with("varies"); }
 
 std::string missOf(const Results& results, const RequirementResult& requirement) {
@@ -230,20 +237,23 @@ std::vector<RequirementWords> wordsOfRequirements(const Results& results) {
   return words;
 }
 
+int severityOf(const RequirementResult& requirement) {
+  return requirement.word == Decision::violated ? 0
+         : requirement.word == Decision::partly ? 1
+         : requirement.isViolatedInSimulation   ? 2
+         : requirement.word == Decision::open   ? 3
+                                                : 4;
+}
+
 std::vector<std::size_t> shownRequirements(const Results& results) {
-  const auto rank = [&](std::size_t r) {
-    const RequirementResult& requirement = results.requirements[r];
-    return isViolated(requirement)              ? 0
-           : requirement.isViolatedInSimulation ? 1
-           : requirement.word == Decision::met  ? 3
-                                                : 2;
-  };
   std::vector<std::size_t> shown(results.requirements.size());
   std::iota(shown.begin(), shown.end(), std::size_t{0});
-  if (shown.size() <= mostShown) return shown;
-  std::ranges::stable_sort(shown, {}, rank);
-  shown.resize(mostShown);
-  std::ranges::sort(shown);
+  std::ranges::stable_sort(shown, {}, [&](std::size_t r) {
+    const RequirementResult& requirement = results.requirements[r];
+    return std::pair(severityOf(requirement),
+                     requirement.word == Decision::partly ? requirement.probabilityLower : 0.0);
+  });
+  shown.resize(std::min(shown.size(), mostShown));
   return shown;
 }
 

@@ -20,8 +20,11 @@ struct RequirementWords {
 /// One a requirement.
 std::vector<RequirementWords> wordsOfRequirements(const Results& results);
 
-/// Which of them a page shows, rising: all, or, where they are more than 200, the worst: violated ones, then those
-/// violated in simulation, open ones, met ones; of equals the first.
+/// How bad what is known of one is, 0 the worst: violated, violated for some values, violated in simulation, open, met.
+int severityOf(const RequirementResult& requirement);
+
+/// Which of them a page shows, 200 at most, the worst first: of those that some values violate the one of which that
+/// may be likeliest, of equals the first.
 std::vector<std::size_t> shownRequirements(const Results& results);
 
 /// "and 35 more in the results file"; empty where all are shown.
@@ -43,6 +46,12 @@ Decision wordOfRequirements(const Results& results);
 
 /// One sentence about all of them; empty without requirements.
 std::string sentenceOfRequirements(const Results& results);
+
+/// "0.0694 to 0.0773", "0.002 at most": the probability that it is violated, proved, rounded outward.
+std::string violationProbability(const RequirementResult& requirement);
+
+/// "58.3 %", rounded down.
+std::string percentText(double share);
 
 /// Whether it is a course in time, not a number: of it a violation holds the number that chooses the course.
 bool variesInTime(const UncertainInfo& quantity);

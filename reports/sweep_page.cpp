@@ -478,6 +478,9 @@ std::string renderSweep(const SweepResults& sweep) {
                      {"plottingStyle", ""},
                      {"first", fmt::format("<section class=\"first\">\n<p class=\"lead\">{}</p>\n{}</section>\n",
                                            leadOf(sweep), stateList(sweep))},
+                     {"chips", ""},
+                     {"links", ""},
+                     {"clock", ""},
                      {"sections", demandsSection(sweep, drawn) + outputsOverSweep(sweep, drawn) + pointsSection(sweep) +
                                       originSection(sweep)},
                      {"scripts", ""}});

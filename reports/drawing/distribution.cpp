@@ -41,7 +41,7 @@ std::string drawDistribution(const Results& results, std::size_t at, std::size_t
   std::string svg = openedDrawing(frame.height, label, frame.width);
   Pen pen;
   drawHorizontalAxis(frame, headingOf(results.outputs[output].name, results.outputs[output].unit), 4, svg);
-  drawVerticalAxis(frame, "probability of no more", 5, svg);
+  drawVerticalAxis(frame, "cumulative probability", 5, svg);
   const auto go = [&](double value, double probability) {
     pen.go(frame.across(clipped(value, frame.x)), frame.down(std::clamp(probability, 0.0, 1.0)));
   };

@@ -33,6 +33,28 @@ export const pressable = (words, isPressed, onPress) => {
   return button;
 };
 
+/** @typedef {(time: number) => void} Follow */
+
+/** @type {Set<Follow>} */
+const followers = new Set();
+
+/** Calls it with every time [s] that somebody chooses anywhere on the page. @param {Follow} follow */
+export const followTime = follow => {
+  followers.add(follow);
+};
+
+/** All but who chose it follow. @param {number} time @param {Follow} [chooser] */
+export const chooseTime = (time, chooser) => {
+  for (const follow of followers) if (follow !== chooser) follow(time);
+};
+
+/** Of times that rise, the place of the nearest. @param {number[]} times @param {number} time */
+export const nearestTo = (times, time) => {
+  const behind = times.findIndex(at => at >= time);
+  if (behind <= 0) return behind < 0 ? times.length - 1 : 0;
+  return times[behind] - time < time - times[behind - 1] ? behind : behind - 1;
+};
+
 /**
  * Makes a switch of each entry of a key: what happens as its layer is shown or hidden.
  * @param {string} entries @param {(layer: string, isShown: boolean) => void} onSwitch

@@ -65,29 +65,12 @@ Foremost foremostOf(const Results& results) {
 
 // ---- Words ----------------------------------------------------------------------------------------------------------
 
-std::string requirementList(const Results& results, const Verdict& verdict) {
-  if (results.requirements.empty()) return {};
-  const std::vector<RequirementWords> words = wordsOfRequirements(results);
-  const std::vector<std::string> sentences = plainRequirements(results);
-  std::string html = "<ul class=\"requirements\" aria-label=\"Requirements\">\n";
-  for (const std::size_t r : shownRequirements(results))
-    html +=
-        verdict.word == Agreement::outside
-            ? fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name))
-            : fmt::format("<li class=\"{}\"><b>{}</b> <span>{}</span> {}</li>\n", words[r].word,
-                          results.requirements[r].isViolatedInSimulation     ? "violated in simulation"
-                          : results.requirements[r].word == Decision::partly ? "violated"
-                                                                             : words[r].word,
-                          escapeHtml(words[r].name), escapeHtml(sentences[r]));
-  const std::string more = unshownRequirements(results);
-  return html + "</ul>\n" + (more.empty() ? "" : fmt::format("<p class=\"hint\">{}</p>\n", more));
-}
-
 std::string verdictCard(const Verdict& verdict) {
   const std::string_view word = wordOf(verdict.word),
                          shown = verdict.gap == Finding::Gap::noAnswers ? "not compared" : word;
   return fmt::format(
-      "<section class=\"verdict {}\" aria-label=\"Verdict\">\n<p class=\"sentence\"><b class=\"word\">{}</b> {}</p>\n"
+      "<section id=\"verdict\" class=\"verdict {}\" aria-label=\"Verdict\">\n<p class=\"sentence\"><b "
+      "class=\"word\">{}</b> {}</p>\n"
       "{}</section>\n",
       word, shown, escapeHtml(verdict.sentence), notesList(verdict));
 }
@@ -139,12 +122,13 @@ std::string rangesTable(const Results& results) {
 // ---- The plot -------------------------------------------------------------------------------------------------------
 
 /// Numbers of the limits in the plot of an output that are those of one requirement.
-std::vector<std::size_t> limitsShown(const Results& results, const Foremost& foremost) {
+std::vector<std::size_t> limitsShown(const Results& results, std::size_t output,
+                                     std::optional<std::size_t> requirement) {
   std::vector<std::size_t> numbers;
   std::size_t number = 0;
   for (const Limit& limit : limitsOf(results)) {
-    if (limit.output != foremost.output) continue;
-    if (foremost.limit && limit.requirement == foremost.limit->requirement) numbers.push_back(number);
+    if (limit.output != output) continue;
+    if (limit.requirement == requirement) numbers.push_back(number);
     ++number;
   }
   return numbers;
@@ -213,8 +197,9 @@ std::string titleOfPlot(const Results& results, const Foremost& foremost) {
 }
 
 std::string plotOfForemost(const Results& results, const Foremost& foremost) {
-  const std::vector<std::size_t> limits = limitsShown(results, foremost);
-  const Plot plot = essentials(plotOf(results, foremost.output), limits);
+  const auto requirement = foremost.limit ? std::optional(foremost.limit->requirement) : std::nullopt;
+  const std::vector<std::size_t> limits = limitsShown(results, foremost.output, requirement);
+  const Plot plot = essentialPlot(results, foremost.output, requirement);
   if (plot.layers.empty()) return {};
   const std::string title = titleOfPlot(results, foremost), label = "Plot of " + title;
   const std::string caption = fmt::format("<figcaption>{}</figcaption>", escapeHtml(captionOf(plot)));
@@ -292,8 +277,9 @@ std::string ranking(const Results& results, std::size_t output) {
   for (const UncertainInfo& quantity : results.uncertain)
     if (variesInTime(quantity)) courses.push_back(escapeHtml(quantity.name));
   std::string html = fmt::format(
-      "<section class=\"ranking\">\n<h3>What to measure better first</h3>\n<p class=\"hint\">How much of the spread of "
-      "\u201c{}\u201d{} each quantity takes part in{}.</p>\n<ol>\n",
+      "<section class=\"ranking\">\n<h3>What to measure better first</h3>\n<p class=\"hint\">Share of each quantity in "
+      "the "
+      "spread of \u201c{}\u201d{}{}.</p>\n<ol>\n",
       escapeHtml(results.outputs[output].name),
       results.horizon > 0 ? fmt::format(" at {} s", numberText(s.time[at], 6)) : "",
       courses.empty()
@@ -313,16 +299,20 @@ std::string tone(const Results& results, const Verdict& verdict) {
 
 }  // namespace
 
+Plot essentialPlot(const Results& results, std::size_t output, std::optional<std::size_t> requirement) {
+  return essentials(plotOf(results, output), limitsShown(results, output, requirement));
+}
+
 std::size_t foremostOutput(const Results& results) { return foremostOf(results).output; }
 
 std::string firstSection(const Report& report) {
   const Results& results = report.results;
   const Foremost foremost = foremostOf(results);
   const bool isThere = foremost.output < results.outputs.size() && !results.time.empty();
-  return fmt::format("<section class=\"first {}\" aria-label=\"What was found\">\n<p class=\"lead\">{}</p>\n",
-                     tone(results, report.verdict),
-                     escapeHtml(plainSummary(results, report.verdict, foremost.output))) +
-         requirementList(results, report.verdict) + verdictCard(report.verdict) +
+  return fmt::format(
+             "<section id=\"found\" class=\"first {}\" aria-label=\"What was found\">\n<p class=\"lead\">{}</p>\n",
+             tone(results, report.verdict), escapeHtml(plainSummary(results, report.verdict, foremost.output))) +
+         requirementCards(report) + verdictCard(report.verdict) +
          (report.verdict.word == Agreement::outside ? "" : rangesTable(results)) +
          (isThere ? plotOfForemost(results, foremost) + ranking(results, foremost.output) : "") + "</section>\n";
 }

@@ -148,5 +148,5 @@ for (const picture of all(".picture")) {
 }
 
 window.addEventListener("beforeprint", () => {
-  for (const part of /** @type {HTMLDetailsElement[]} */ (all("section > details:not(.more)"))) part.open = true;
+  for (const part of /** @type {HTMLDetailsElement[]} */ (all("section > details:not(.more), .requirements details"))) part.open = true;
 });

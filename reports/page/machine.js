@@ -3,7 +3,7 @@
 // stands at its start.
 "use strict";
 
-import { all, made, makeSwitches, one, press, pressable } from "./dom.js";
+import { all, chooseTime, followTime, made, makeSwitches, nearestTo, one, press, pressable } from "./dom.js";
 import { dragged, Picture } from "./scene.js";
 
 /** @typedef {import("./scene.js").Scene} Scene */
@@ -90,9 +90,16 @@ class Machine {
       playing = 0;
       play.textContent = "Play";
     };
+    /** @param {number} at */
+    const follow = at => {
+      stop();
+      this.go(nearestTo(time, at));
+    };
+    followTime(follow);
     slider.addEventListener("input", () => {
       stop();
       this.go(Number(slider.value));
+      chooseTime(time[this.stance.row], follow);
     });
     play.addEventListener("click", () => {
       if (playing) {
@@ -105,6 +112,7 @@ class Machine {
       const step = now => {
         const t = from + (now - began) / 1000 * time[last] / seconds, next = time.findLastIndex(at => at <= t);
         this.go(Math.max(next, this.stance.row));
+        chooseTime(time[this.stance.row], follow);
         if (this.stance.row === last) stop();
         else playing = requestAnimationFrame(step);
       };

@@ -2,6 +2,7 @@
 #include "reports/page/moments.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "reports/words.hpp"
 
@@ -9,10 +10,15 @@ namespace gamut {
 
 std::string momentsControl(const std::string& kind, const std::string& label, const std::vector<double>& times) {
   if (times.size() < 2) return {};
-  std::string list;
-  for (const double time : times) list += (list.empty() ? "" : ",") + jsonText(timeText(time));
-  return fmt::format("<div class=\"controls moments\" data-of=\"{}\" data-label=\"{}\" data-times=\"{}\"></div>\n",
-                     kind, escapeHtml(label), escapeHtml("[" + list + "]"));
+  std::vector<std::string> texts, seconds;
+  for (const double time : times) {
+    texts.push_back(jsonText(timeText(time)));
+    seconds.push_back(numberText(time, 12));
+  }
+  return fmt::format(
+      "<div class=\"controls moments\" data-of=\"{}\" data-label=\"{}\" data-times=\"{}\" "
+      "data-seconds=\"[{}]\"></div>\n",
+      kind, escapeHtml(label), escapeHtml(fmt::format("[{}]", fmt::join(texts, ","))), fmt::join(seconds, ","));
 }
 
 std::string momentFigures(const std::string& kind, const std::vector<std::string>& drawings,

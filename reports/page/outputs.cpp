@@ -74,9 +74,10 @@ std::string motionSection(const Plot& plot, std::size_t output, const Detail& de
                                                        isSpread),
                     ratios = drawRatios(thin, "Plot of the overestimation of " + plot.name);
   return fmt::format(
-      "<section class=\"output\" data-output=\"{}\" data-view=\"{}\">\n<h3>{}</h3>\n"
-      "<script type=\"application/json\">{}</script>\n"
-      "<div class=\"live\" role=\"group\" aria-label=\"{}\"></div>\n<div class=\"static\">\n{}{}{}</div>\n</section>\n",
+      "<section class=\"output\" data-output=\"{0}\" data-view=\"{1}\" id=\"output-{0}\">\n<h3>{2}</h3>\n"
+      "<script type=\"application/json\">{3}</script>\n"
+      "<div class=\"live\" role=\"group\" aria-label=\"{4}\"></div>\n<div "
+      "class=\"static\">\n{5}{6}{7}</div>\n</section>\n",
       output, isSpread ? "spread" : "absolute", escapeHtml(plot.name), plotData(plot, detail.times),
       escapeHtml("Interactive plot of " + words), isSpread ? spread : absolute, isSpread ? absolute : spread,
       ratios.empty() ? "" : figure("ratio", "Overestimation", ratios, false));
@@ -102,9 +103,10 @@ std::string barNumbers(const Plot& plot) {
   return numbers.html();
 }
 
-std::string positionSection(const Plot& plot) {
-  return fmt::format("<section class=\"output\">\n<h3>{}</h3>\n<figure class=\"kept\">{}{}</figure>\n</section>\n",
-                     escapeHtml(plot.name), drawBars(plot, "Bars of " + description(plot)), barNumbers(plot));
+std::string positionSection(const Plot& plot, std::size_t output) {
+  return fmt::format(
+      "<section class=\"output\" id=\"output-{}\">\n<h3>{}</h3>\n<figure class=\"kept\">{}{}</figure>\n</section>\n",
+      output, escapeHtml(plot.name), drawBars(plot, "Bars of " + description(plot)), barNumbers(plot));
 }
 
 /// The layers of all plots, each once.
@@ -180,7 +182,7 @@ OutputPlots outputPlots(const Results& results, const Detail& detail) {
     const Plot plot = plotOf(results, k);
     style.add(plot);
     gather(key, plot);
-    plots += plot.isOverTime() ? motionSection(plot, k, detail) : positionSection(plot);
+    plots += plot.isOverTime() ? motionSection(plot, k, detail) : positionSection(plot, k);
     if (plot.isOverTime() && outputs.data.empty()) outputs.data = timeData(plot, detail.times);
   }
   if (!outputs.data.empty()) outputs.html = drawKey(key, "Key to all plots over time");

@@ -4,10 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <ranges>
+#include <utility>
 
 #include "reports/page/table.hpp"
+#include "reports/requirements.hpp"
+#include "reports/sections/limits.hpp"
 #include "reports/summary.hpp"
 #include "reports/words.hpp"
 #include "studies/printable.hpp"
@@ -28,6 +33,17 @@ std::string uncertainTable(const Results& results, std::size_t rows) {
                           shapeText(results, info, ShapeKind::membership)});
   }
   return table.html() + hintOfRows(results.uncertain.size(), rows);
+}
+
+/// "30 November 2026, 00:27 UTC" of "2026-11-30T00:27:39Z"; others as they are.
+std::string dateText(const std::string& date) {
+  constexpr std::array months{"January", "February", "March",     "April",   "May",      "June",
+                              "July",    "August",   "September", "October", "November", "December"};
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
+  if (std::sscanf(date.c_str(), "%4d-%2d-%2dT%2d:%2d", &year, &month, &day, &hour, &minute) != 5 || month < 1 ||
+      month > 12)
+    return date;
+  return fmt::format("{} {} {}, {:02}:{:02} UTC", day, months[static_cast<std::size_t>(month - 1)], year, hour, minute);
 }
 
 std::string settledList(const Verdict& verdict) {
@@ -67,8 +83,41 @@ std::string summaryLine(const Results& results) {
     margins += static_cast<std::size_t>(requirement.margins);
   line += ", " + countText(static_cast<long long>(results.outputs.size() - std::min(margins, results.outputs.size())),
                            "output");
-  if (!results.date.empty()) line += ", " + results.date;
+  if (!results.date.empty()) line += ", " + dateText(results.date);
   return line;
+}
+
+std::string chipsOf(const Report& report) {
+  const Results& results = report.results;
+  std::string html;
+  if (const std::size_t all = results.requirements.size(); all > 0 && report.verdict.word != Agreement::outside) {
+    constexpr int simulated = 2, open = 3;
+    const auto upTo = [&](int severity) {
+      return static_cast<std::size_t>(std::ranges::count_if(
+          results.requirements, [&](const RequirementResult& r) { return severityOf(r) <= severity; }));
+    };
+    const std::size_t failing = upTo(simulated), undecided = upTo(open) - failing;
+    const auto [tone, words] = failing > 0 ? std::pair("violated", fmt::format("{} of {} can fail", failing, all))
+                               : undecided > 0
+                                   ? std::pair("open", fmt::format("{} of {} not decided", undecided, all))
+                                   : std::pair("met", all == 1 ? std::string("met in every case")
+                                                               : fmt::format("all {} met in every case", all));
+    html += fmt::format("<a class=\"chip {}\" href=\"#found\">{}</a> ", tone, words);
+  }
+  if (report.verdict.gap != Finding::Gap::noAnswers)
+    html += fmt::format("<a class=\"chip {0}\" href=\"#verdict\">checked: {1}</a>", wordOf(report.verdict.word),
+                        report.verdict.word == Agreement::inside && results.stochastic.integrated > 0
+                            ? fmt::format("all {} samples inside", results.stochastic.integrated)
+                            : std::string(wordOf(report.verdict.word)));
+  return html;
+}
+
+std::string clockOf(const Results& results) {
+  if (!(results.horizon > 0) || results.time.size() < 2) return {};
+  const std::size_t foremost = foremostOutput(results);
+  const double instant = foremost < results.outputs.size() ? instantOf(results, foremost) : std::nan("");
+  return fmt::format("<div class=\"controls clock\" data-until=\"{}\" data-instant=\"{}\"></div>",
+                     numberText(results.horizon, 12), numberText(std::isfinite(instant) ? instant : 0.0, 12));
 }
 
 std::string notesList(const Verdict& verdict) {
@@ -85,6 +134,8 @@ std::string askedSection(const Report& report) {
   std::string html = uncertainTable(report.results, report.detail.rows);
   if (const std::string& dependence = report.results.dependence; !dependence.empty())
     html += fmt::format("<p class=\"hint\">The quantities: {}.</p>\n", escapeHtml(dependence));
+  if (const std::string& assembly = report.results.assembly; !assembly.empty())
+    html += fmt::format("<p class=\"hint\">Assembled at the nominal start: {}.</p>\n", escapeHtml(assembly));
   if (const std::string& assumptions = report.results.assumptions; !assumptions.empty())
     html += fmt::format("<p class=\"hint\">Assumed, not proved: {}.</p>\n", escapeHtml(assumptions));
   return html;

@@ -1,8 +1,11 @@
 // The sections of a page, each from results to HTML. What analyses add to them is in reports/sections/.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
+#include "reports/drawing/plot.hpp"
 #include "reports/page/detail.hpp"
 #include "reports/verdict.hpp"
 #include "studies/results/results.hpp"
@@ -41,6 +44,9 @@ std::string membershipFigures(const Results& results, const Detail& detail);
 /// The output that is drawn first.
 std::size_t foremostOutput(const Results& results);
 
+/// Of an output what is known the best, a middle, and the limits of one requirement.
+Plot essentialPlot(const Results& results, std::size_t output, std::optional<std::size_t> requirement);
+
 /// What sections are made of.
 struct Report {
   const Results& results;
@@ -51,11 +57,17 @@ struct Report {
   PlotSection probabilities, sensitivities;
 };
 
+/// How many requirements can fail, and whether samples were checked to lie inside, each a link to more of it.
+std::string chipsOf(const Report& report);
+
+/// Where the slider of the page's time is put: it begins at the instant at which the foremost output is looked at.
+std::string clockOf(const Results& results);
+
 /// What holds in every case, whether the answers agree, and the one plot that matters.
 std::string firstSection(const Report& report);
 
-/// The requirements with their three answers; empty without requirements.
-std::string requirementsSection(const Report& report);
+/// The requirements, a card each, the worst first; empty without requirements.
+std::string requirementCards(const Report& report);
 
 /// The uncertain quantities.
 std::string askedSection(const Report& report);

@@ -4,7 +4,7 @@
 "use strict";
 
 import { axisName, padded, ticks } from "./axes.js";
-import { all, made, makeSwitches, one, press, pressable } from "./dom.js";
+import { all, followTime, made, makeSwitches, one, press, pressable } from "./dom.js";
 import { addButtons, headingOf, hidden } from "./keep.js";
 import { columnsOf, readOutput, readoutOf, shownOf } from "./outputs.js";
 
@@ -244,6 +244,11 @@ class OutputPlot {
     if (width > 0 && this.plot?.width !== width) this.plot?.setSize({ width, height: heightIn(this.main) });  // 0: printed
   }
 }
+
+followTime(at => {
+  const [first] = drawn;  // whose cursor all others have
+  first?.plot?.setCursor({ left: first.plot.valToPos(at, "x"), top: 1 });
+});
 
 makeSwitches(".outputs > .keys li", (layer, isShown) => {
   if (isShown) hidden.delete(layer);

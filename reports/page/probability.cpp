@@ -21,7 +21,7 @@ std::string distributionNumbers(const Results& results, std::size_t at, std::siz
   const Stairs stairs = stairsOf(results, at, output);
   NumbersText numbers;
   numbers.column(results.outputs[output].name, results.outputs[output].unit, stairs.value);
-  numbers.column("probability of no more, at least", "", stairs.lower, NumbersText::Rounded::down, 5);
+  numbers.column("cumulative probability, at least", "", stairs.lower, NumbersText::Rounded::down, 5);
   numbers.column("at most", "", stairs.upper, NumbersText::Rounded::up, 5);
   numbers.column("share of the samples", "", stairs.sampled, NumbersText::Rounded::nearest, 5);
   return numbers.html();

@@ -1,40 +1,191 @@
-// The requirements, each with its three answers side by side.
+// The requirements, a card each: what is known in a sentence, the margin and the motion where that is least, and the
+// three answers side by side.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "reports/drawing/axes.hpp"
+#include "reports/drawing/paper.hpp"
 #include "reports/page/page.hpp"
+#include "reports/plain.hpp"
 #include "reports/requirements.hpp"
+#include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
 
 namespace gamut {
 namespace {
 
+/// Where a margin is least.
+struct Worst {
+  std::size_t row = 0, margin = 0;  ///< the output time nearest to that instant; the output that is the margin
+};
+
+std::optional<Worst> worstOf(const Results& results, const RequirementResult& requirement) {
+  const Bounds* known = bestKnown(results);
+  const double instant = decisiveTime(results, requirement);
+  if (known == nullptr || results.time.empty() || std::isnan(instant)) return {};
+  const auto nearest = std::ranges::min_element(results.time, {}, [&](double t) { return std::abs(t - instant); });
+  Worst worst{static_cast<std::size_t>(nearest - results.time.begin()), 0};
+  double least = INFINITY;
+  for (const MarginInfo& margin : marginsOf(results, requirement))
+    if (const double lower = known->lower(worst.row, margin.output); lower < least)
+      least = lower, worst.margin = margin.output;
+  return std::isfinite(least) ? std::optional(worst) : std::nullopt;
+}
+
+/// A view's share in the drawing of a margin.
+struct Mark {
+  const char *name, *words;
+  double lower = 0, upper = 0;
+};
+
+/// What is guaranteed, probable and most possible there, as far as it is known, from back to front.
+std::vector<Mark> marksOf(const Results& results, const Worst& at) {
+  std::vector<Mark> marks;
+  const auto add = [&](const char* name, const char* words, const auto& lower, const auto& upper) {
+    if (at.row >= results.time.size() || lower.empty()) return;
+    const double low = lower(at.row, at.margin), high = upper(at.row, at.margin);
+    if (isDrawn(low) && isDrawn(high) && low <= high) marks.push_back({name, words, low, high});
+  };
+  add("mark-guaranteed", "guaranteed", results.interval.at.lower, results.interval.at.upper);
+  const std::vector<double>& probabilities = results.stochastic.probabilities;
+  const auto low = std::ranges::find(probabilities, 0.05), high = std::ranges::find(probabilities, 0.95);
+  if (low != probabilities.end() && high != probabilities.end())
+    add("mark-probable", "5 to 95 % of the samples", results.stochastic.quantiles[low - probabilities.begin()],
+        results.stochastic.quantiles[high - probabilities.begin()]);
+  if (results.fuzzy.present && !results.fuzzy.outer.empty())
+    add("mark-core", "most possible", results.fuzzy.outer.back().lower, results.fuzzy.outer.back().upper);
+  return marks;
+}
+
+/// The views nested about one line, and a red one at zero, left of which the requirement is violated.
+std::string marginBar(const Results& results, const RequirementResult& requirement, const Worst& at) {
+  constexpr double width = 320, height = 44, middle = 18, least = 2;
+  const std::vector<Mark> marks = marksOf(results, at);
+  if (marks.empty()) return {};
+  const Mark& widest = marks.front();
+  Range range;
+  range.hold(0);
+  std::vector<std::string> words;
+  const std::string& unit = results.outputs[at.margin].unit;
+  for (const Mark& mark : marks) {
+    range.hold(mark.lower);
+    range.hold(mark.upper);
+    const auto [lower, upper] = boundsText(mark.lower, mark.upper, 0, 4, 1e-3 * (widest.upper - widest.lower));
+    words.push_back(fmt::format("{} {}", mark.words, inUnit(fmt::format("{} to {}", lower, upper), unit)));
+  }
+  const Range padded = range.padded(0.06);
+  const auto across = [&](double value) { return width * (value - padded.low) / (padded.high - padded.low); };
+  const std::string when =
+      results.horizon > 0 ? fmt::format(" at {} s", numberText(results.time[at.row], 6)) : std::string();
+  const std::string label = fmt::format("Margin of {}{}: {}", requirement.name, when, fmt::join(words, "; "));
+  std::string svg = fmt::format(
+      "<svg class=\"drawing margin\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n"
+      "<rect class=\"missed\" x=\"0\" y=\"4\" width=\"{:.1f}\" height=\"{}\"/>\n",
+      width, height, escapeHtml(label), across(0), 2 * (middle - 4));
+  double half = 10;
+  for (const Mark& mark : marks) {
+    const double left = across(mark.lower), wide = std::max(across(mark.upper) - left, least);
+    svg += fmt::format("<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"1.5\"/>\n",
+                       mark.name, left, middle - half, wide, 2 * half);
+    half -= 3.5;
+  }
+  svg += fmt::format("<path class=\"zero\" d=\"M{0:.1f} 2V34\"/>\n", across(0));
+  drawText("middle", std::clamp(across(0), 14.0, width - 14), height - 1, "limit", svg);
+  if (requirement.isViolatedBetween) words.emplace_back("the violation lies between output times");
+  return fmt::format("<figure class=\"margin\">{}</svg>\n<figcaption>Margin{}: {}</figcaption></figure>\n", svg, when,
+                     escapeHtml(fmt::format("{}", fmt::join(words, "; "))));
+}
+
+/// The same between these rows.
+Plot cropped(Plot plot, std::size_t from, std::size_t until) {
+  const auto cut = [&](Line& line) {
+    if (line.size() <= from) return line.clear();
+    line.resize(std::min(line.size(), until));
+    line.erase(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(from));
+  };
+  cut(plot.time);
+  for (Layer& layer : plot.layers)
+    for (Band& band : layer.bands) cut(band.lower), cut(band.upper);
+  plot.ratios.clear();
+  return plot;
+}
+
+/// The motion about that instant, with the limits: a sixteenth of the time to either side, or six output times.
+std::string closeUp(const Report& report, std::size_t requirement, const Worst& at) {
+  const Results& results = report.results;
+  const std::size_t rows = results.time.size();
+  if (results.horizon == 0 || rows < 3) return {};
+  const std::vector<Limit> limits = limitsOf(results);
+  const auto limit = std::ranges::find(limits, at.margin, &Limit::margin);
+  if (limit == limits.end()) return {};
+  const std::size_t beside = std::max<std::size_t>(6, rows / 16), from = at.row - std::min(at.row, beside),
+                    until = std::min(rows, at.row + beside + 1);
+  const Plot plot = cropped(essentialPlot(results, limit->output, requirement), from, until);
+  if (plot.layers.empty()) return {};
+  const char* meaning = limit->output == limit->margin ? " (above zero it is met)" : "";
+  const std::string label = fmt::format("{}{} from {} s to {} s", plot.name, meaning, numberText(plot.time.front(), 6),
+                                        numberText(plot.time.back(), 6));
+  constexpr std::size_t drawn = 60;
+  const std::string figure = fmt::format("<figure class=\"close\">{}<figcaption>{}</figcaption></figure>",
+                                         drawSmall(thinned(plot, drawn), "Plot of " + label), escapeHtml(label));
+  return report.detail.plots(limit->output) ? fmt::format("<a href=\"#output-{}\">{}</a>\n", limit->output, figure)
+                                            : figure + "\n";
+}
+
 std::string answer(const char* title, const std::string& text) {
   return text.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", title, escapeHtml(text));
 }
 
+std::string threeAnswers(const RequirementWords& words) {
+  return fmt::format(
+      "<details><summary>Guaranteed, probable, possible</summary>\n<article class=\"requirement {}\">\n"
+      "<p class=\"demand\">{}</p>\n<dl>\n{}{}{}{}</dl>\n</article></details>\n",
+      words.word, escapeHtml(words.demand), answer("guaranteed", words.guaranteed), answer("probable", words.probable),
+      words.estimated.empty() ? ""
+                              : fmt::format("<dt class=\"estimated\">estimated</dt><dd class=\"estimated\">{}</dd>\n",
+                                            escapeHtml(words.estimated)),
+      answer("possible", words.possible));
+}
+
+/// The first word of a card.
+std::string stateOf(const RequirementResult& requirement, const RequirementWords& words) {
+  return requirement.isViolatedInSimulation     ? "violated in simulation"
+         : requirement.word == Decision::partly ? "violated"
+                                                : words.word;
+}
+
 }  // namespace
 
-std::string requirementsSection(const Report& report) {
+std::string requirementCards(const Report& report) {
   const Results& results = report.results;
   if (results.requirements.empty()) return {};
-  std::string html = fmt::format("<p>{}</p>\n", escapeHtml(sentenceOfRequirements(results)));
-  const std::vector<RequirementWords> all = wordsOfRequirements(results);
+  const std::vector<RequirementWords> words = wordsOfRequirements(results);
+  const std::vector<std::string> sentences = plainRequirements(results);
+  constexpr std::size_t drawn = 24;  // with pictures
+  std::size_t shown = 0;
+  std::string html = "<ul class=\"requirements\" aria-label=\"Requirements, the worst first\">\n";
   for (const std::size_t r : shownRequirements(results)) {
-    const RequirementWords& words = all[r];
-    html += fmt::format(
-        "<article class=\"requirement {}\">\n<h3><span>{}</span> <b>{}</b></h3>\n<p "
-        "class=\"demand\">{}</p>\n<dl>\n{}{}{}{}</dl>\n"
-        "</article>\n",
-        words.word, escapeHtml(words.name), escapeHtml(words.verdict), escapeHtml(words.demand),
-        answer("guaranteed", words.guaranteed), answer("probable", words.probable),
-        words.estimated.empty() ? ""
-                                : fmt::format("<dt class=\"estimated\">estimated</dt><dd class=\"estimated\">{}</dd>\n",
-                                              escapeHtml(words.estimated)),
-        answer("possible", words.possible));
+    const RequirementResult& requirement = results.requirements[r];
+    if (report.verdict.word == Agreement::outside) {
+      html += fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name));
+      continue;
+    }
+    html +=
+        fmt::format("<li class=\"{}\" id=\"requirement-{}\"><b>{}</b> <span>{}</span> {}{}\n", words[r].word, r + 1,
+                    stateOf(requirement, words[r]), escapeHtml(words[r].name), escapeHtml(sentences[r]),
+                    requirement.factor > 0 && requirement.word != Decision::met
+                        ? fmt::format(" It holds where all tolerances shrink to {}.", percentText(requirement.factor))
+                        : "");
+    if (const std::optional<Worst> at = worstOf(results, requirement); at && ++shown <= drawn)
+      html += "<div class=\"seen\">" + marginBar(results, requirement, *at) + closeUp(report, r, *at) + "</div>\n";
+    html += threeAnswers(words[r]) + "</li>\n";
   }
-  if (const std::string more = unshownRequirements(results); !more.empty())
-    html += fmt::format("<p class=\"hint\">{}</p>\n", more);
-  return html;
+  const std::string more = unshownRequirements(results);
+  return html + "</ul>\n" + (more.empty() ? "" : fmt::format("<p class=\"hint\">{}</p>\n", more));
 }
 
 }  // namespace gamut

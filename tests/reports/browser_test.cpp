@@ -234,13 +234,16 @@ std::vector<double> numbersOf(std::string path) {
   return {std::istream_iterator<double>(text), {}};
 }
 
-constexpr const char* slide =
-    "const slider = document.querySelector('.controls input'); slider.value = 3;"
-    "slider.dispatchEvent(new Event('input'));";
+/// Moves the slider in `place` there.
+std::string slid(const std::string& place, int value) {
+  return "{ const slider = document.querySelector('" + place + " input'); slider.value = " + std::to_string(value) +
+         "; slider.dispatchEvent(new Event('input')); }";
+}
 
 TEST_F(Browser, MovesTheMachineThroughTime) {
   const Results results = example::machine();
-  const std::string start = opened(results), later = opened(results, slide), still = renderReport(results);
+  const std::string start = opened(results, slid(".picture .controls", 0)),
+                    later = opened(results, slid(".picture .controls", 3)), still = renderReport(results);
   EXPECT_THAT(rootOf(start), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
   EXPECT_THAT(start, HasSubstr("t = 0 s"));
   EXPECT_THAT(later, HasSubstr("t = 1.5 s"));
@@ -255,6 +258,23 @@ TEST_F(Browser, MovesTheMachineThroughTime) {
     EXPECT_THAT(numbersOf(attributeOf(start, element, "d")),
                 ::testing::Pointwise(::testing::DoubleNear(0.15), numbersOf(attributeOf(still, element, "d"))))
         << element;
+}
+
+/// It begins where the outputs are widest, and whoever is moved moves all.
+TEST_F(Browser, HasOneTime) {
+  const Results results = example::machine();  // seen every half second, memberships at every quarter of one
+  const std::string begun = opened(results);
+  EXPECT_EQ(count(begun, "<output>t = 3 s</output>"), 2u);
+  EXPECT_THAT(begun, HasSubstr("<output>3 s</output>"));
+  const std::string byClock = opened(results, slid(".clock", 350));
+  EXPECT_THAT(byClock, AllOf(HasSubstr("<output>t = 1.05 s</output>"), HasSubstr("<output>t = 1 s</output>"),
+                             HasSubstr("<output>1 s</output>")));
+  const std::string byMachine = opened(results, slid(".picture .controls", 3));
+  EXPECT_EQ(count(byMachine, "<output>t = 1.5 s</output>"), 2u);
+  EXPECT_THAT(byMachine, HasSubstr("<output>1.5 s</output>"));
+  const std::string byMoments = opened(results, slid(".memberships .moments", 2));
+  EXPECT_EQ(count(byMoments, "<output>t = 0.5 s</output>"), 2u);
+  EXPECT_THAT(byMoments, HasSubstr("<output>0.5 s</output>"));
 }
 
 TEST_F(Browser, ShowsNoNameOverAnother) {
@@ -305,7 +325,8 @@ TEST_F(Browser, TurnsTheMachine) {
 
 TEST_F(Browser, PrintsTheMachineAtItsStart) {
   const Results results = example::machine();
-  const std::string printed = opened(results, std::string(slide) + "window.dispatchEvent(new Event('beforeprint'));");
+  const std::string printed =
+      opened(results, slid(".picture .controls", 3) + "window.dispatchEvent(new Event('beforeprint'));");
   EXPECT_THAT(
       numbersOf(attributeOf(printed, "link", "d")),
       ::testing::Pointwise(::testing::DoubleNear(0.15), numbersOf(attributeOf(renderReport(results), "link", "d"))));
@@ -337,10 +358,7 @@ TEST_F(Browser, ChoosesTheTimeOfDistributions) {
   EXPECT_EQ(count(last, kind + " data-at=\"2\" hidden"), 0u);
   EXPECT_EQ(count(last, kind + " data-at=\"1\" hidden"), 1u);
   EXPECT_THAT(last, HasSubstr("<output>3 s</output>"));
-  const std::string middle = opened(results,
-                                    "{ const slider = document.querySelector('.probabilities .moments input'); "
-                                    "slider.value = 1; slider.dispatchEvent(new "
-                                    "Event('input')); }");
+  const std::string middle = opened(results, slid(".probabilities .moments", 1));
   EXPECT_EQ(count(middle, kind + " data-at=\"2\" hidden"), 2u);
   EXPECT_EQ(count(middle, kind + " data-at=\"1\" hidden"), 0u);
   EXPECT_THAT(middle, HasSubstr("<output>2 s</output>"));
@@ -348,10 +366,7 @@ TEST_F(Browser, ChoosesTheTimeOfDistributions) {
 }
 
 TEST_F(Browser, ChoosesTheTimeOfMembershipFunctions) {
-  const std::string page =
-      opened(example::pendulum(61, 2),
-             "{ const slider = document.querySelector('.memberships .moments input'); slider.value = "
-             "4; slider.dispatchEvent(new Event('input')); }");
+  const std::string page = opened(example::pendulum(61, 2), slid(".memberships .moments", 4));
   EXPECT_THAT(rootOf(page), Not(HasSubstr("data-error")));
   EXPECT_EQ(count(page, "<figure class=\"membership kept\""), 26u);
   EXPECT_EQ(count(page, "<figure class=\"membership kept\" data-at=\"4\">"), 2u);
