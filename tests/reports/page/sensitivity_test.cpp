@@ -21,7 +21,7 @@ using ::testing::Not;
 /// The section of this name; empty if the page has none.
 std::string sectionOf(const Results& results, const std::string& name) {
   const std::string page = renderReport(results), begin = "<section class=\"", card = begin + "card\">";
-  const auto from = page.find("\n" + begin + name + "\">");
+  const auto from = page.find("\n" + begin + name + "\" id=\"" + name + "\">");
   if (from == std::string::npos) return "";
   auto to = from;
   do to = page.find("\n" + begin, to + 1);
