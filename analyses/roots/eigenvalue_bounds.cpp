@@ -726,8 +726,9 @@ struct EigenvalueBounds::Piece::Turned {
   std::vector<bool> movesMass;
   std::vector<double> radii;  // of these
   std::vector<int> which;
-  Symmetric massSpread;  // M is off from that in the middle by no more, both ways
-  double leastMass = 0;  // of M all over the part
+  Symmetric massSpread;           // M is off from that in the middle by no more, both ways
+  bool isMiddlePositive = false;  // M in the middle
+  double leastMass = 0;           // of M all over the part
 };
 
 /// By how much a vector is off.
@@ -798,6 +799,7 @@ EigenvalueBounds::Piece::Turned EigenvalueBounds::Piece::turnedOn(const Box& par
     moved.add(radius, ofMass[i].above);
   }
   turned.massSpread = seen(moved);
+  turned.isMiddlePositive = normOf(minusUnity(inertia)) < 1;
   turned.leastMass = (Interval(1.0) - Interval(normOf(minusUnity(inertia))) -
                       Interval(moved.isZero() ? 0.0 : largestOf(turned.massSpread)))
                          .lower();
@@ -903,7 +905,7 @@ std::optional<EigenvalueBounds::Piece::Off> EigenvalueBounds::Piece::offOfMany(c
 /// (K − λ M) beside what is diag(Δ) in the middle, all over the part and for all of λ's range: by D^½ (±1 + F) D^½ with
 /// ‖F‖ ≤ q, D = |Δ|, row and column k left out.
 struct EigenvalueBounds::Piece::Beheaded {
-  std::vector<double> size;  // of Δ; 0 of k
+  std::vector<double> scale;  // D^-½, as it was rounded: what follows is of these very numbers; 0 of k
   double q = std::numeric_limits<double>::infinity();
 
   Beheaded(const Piece& piece, const Turned& turned, int k, double lambda, double range) {
@@ -916,10 +918,11 @@ struct EigenvalueBounds::Piece::Beheaded {
         mass(i, j) += turned.mass(i, j);
       }
     for (int j = 0, column = 0; j < f; ++j) {
-      size.push_back(j == k ? 0.0 : std::abs(midpoint(middle(j, j))));
-      if (j != k) d(j, column++) = 1 / std::sqrt(size.back());
+      scale.push_back(j == k ? 0.0 : 1 / std::sqrt(std::abs(midpoint(middle(j, j)))));
+      if (j != k) d(j, column++) = scale.back();
     }
-    if (!d.allFinite()) return;
+    if (!d.allFinite() || !turned.isMiddlePositive)
+      return;  // M lies between 0 and that in the middle and what it moves
     for (std::size_t i = 0; i < turned.radii.size(); ++i) {
       const LoewnerBounds bounds = piece.slopeBounds(turned.which[i], lambda);
       moved.add(Interval(turned.radii[i]), bounds.below);
@@ -981,7 +984,7 @@ std::optional<EigenvalueBounds::Piece::Off> EigenvalueBounds::Piece::offOfOne(co
     Interval square(0.0);
     for (int j = 0; j < f; ++j) {
       if (j == k) continue;
-      n[j] = (Interval(residual.at(j).upper()) + delta * inertia[j]) / sqrt(Interval(rest.size[j]));
+      n[j] = (Interval(residual.at(j).upper()) + delta * inertia[j]) * Interval(rest.scale[j]);
       square += sqr(n[j]);
     }
     const Interval others = Interval(rest.q) * sqrt(square) / (Interval(1.0) - Interval(rest.q));
@@ -989,7 +992,7 @@ std::optional<EigenvalueBounds::Piece::Off> EigenvalueBounds::Piece::offOfOne(co
     Interval back(residual.at(k).upper());
     for (int j = 0; j < f; ++j) {
       if (j == k) continue;
-      off.each[j] = ((n[j] + others) / sqrt(Interval(rest.size[j]))).upper();
+      off.each[j] = ((n[j] + others) * Interval(rest.scale[j])).upper();
       back += row[j] * Interval(off.each[j]);
     }
     if (!(least.lower() > 0)) break;
