@@ -197,7 +197,7 @@ class UndampedShapes {
 };
 
 /// Of modes that something damps: φ_i/φ_r of w = [Re φ; Im φ; Re s; Im s].
-std::vector<Shape> dampedShapes(const Machine& machine) {
+std::vector<Shape> dampedShapes(const Machine& machine, const std::atomic<bool>* cancelled) {
   const Rest& rest = *machine.rest;
   const std::vector<int> free = freeOf(rest.rows());
   const std::vector<double> weights = weightsOf(rest, free);
@@ -227,7 +227,9 @@ std::vector<Shape> dampedShapes(const Machine& machine) {
           }
         }
       });
-  const Box bounds = encloseImage(all, 0.0, machine.box, {}, -1, nullptr, machine.remainders)[0];
+  const std::vector<Box> found = encloseImage(all, 0.0, machine.box, {}, -1, cancelled, machine.remainders);
+  if (found.empty()) return {};
+  const Box& bounds = found.front();
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const auto at = bounds.begin() + perMode * static_cast<std::ptrdiff_t>(k);
     shapes[k].frequency = at[0];
@@ -249,7 +251,8 @@ std::map<int, std::optional<Shape>> shapesOf(const Machine& machine, const std::
       for (Shape& shape : undamped.with(mode)) all.insert_or_assign(shape.number, std::move(shape));
     }
   } else {
-    for (Shape& shape : dampedShapes(machine)) all[shape.number] = std::move(shape);
+    for (const DampedMode& mode : machine.rest->damped()) all.try_emplace(mode.number);
+    for (Shape& shape : dampedShapes(machine, cancelled)) all[shape.number] = std::move(shape);
   }
   return all;
 }
@@ -319,7 +322,7 @@ class ModesAnalysis final : public AnalysisOf<ModesAnalysis, ModesResult> {
       else
         unproved.push_back(number + 1);
     take(shapes, names.size(), result);
-    if (!unproved.empty())
+    if (!unproved.empty() && !*run.watch.stop())
       result.why = fmt::format("{} {} not enclosed: narrower intervals may settle {}",
                                unproved.size() == 1 ? "the shape of mode" : "the shapes of modes",
                                fmt::format("{} {}", fmt::join(unproved, ", "), unproved.size() == 1 ? "is" : "are"),
