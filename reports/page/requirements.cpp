@@ -50,14 +50,15 @@ std::vector<Mark> marksOf(const Results& results, const Worst& at) {
     const double low = lower(at.row, at.margin), high = upper(at.row, at.margin);
     if (isDrawn(low) && isDrawn(high) && low <= high) marks.push_back({name, words, low, high});
   };
-  add("mark-guaranteed", "guaranteed", results.interval.at.lower, results.interval.at.upper);
+  add("mark-guaranteed", "guaranteed (outline)", results.interval.at.lower, results.interval.at.upper);
   const std::vector<double>& probabilities = results.stochastic.probabilities;
   const auto low = std::ranges::find(probabilities, 0.05), high = std::ranges::find(probabilities, 0.95);
-  if (low != probabilities.end() && high != probabilities.end())
-    add("mark-probable", "5 to 95 % of the samples", results.stochastic.quantiles[low - probabilities.begin()],
+  const bool areQuantilesThere = results.stochastic.quantiles.size() == probabilities.size();
+  if (low != probabilities.end() && high != probabilities.end() && areQuantilesThere)
+    add("mark-probable", "5 to 95 % of the samples (blue)", results.stochastic.quantiles[low - probabilities.begin()],
         results.stochastic.quantiles[high - probabilities.begin()]);
   if (results.fuzzy.present && !results.fuzzy.outer.empty())
-    add("mark-core", "most possible", results.fuzzy.outer.back().lower, results.fuzzy.outer.back().upper);
+    add("mark-core", "most possible (orange)", results.fuzzy.outer.back().lower, results.fuzzy.outer.back().upper);
   return marks;
 }
 
@@ -174,12 +175,12 @@ std::string requirementCards(const Report& report) {
       html += fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name));
       continue;
     }
-    html +=
-        fmt::format("<li class=\"{}\" id=\"requirement-{}\"><b>{}</b> <span>{}</span> {}{}\n", words[r].word, r + 1,
-                    stateOf(requirement, words[r]), escapeHtml(words[r].name), escapeHtml(sentences[r]),
-                    requirement.factor > 0 && requirement.word != Decision::met
-                        ? fmt::format(" It holds where all tolerances shrink to {}.", percentText(requirement.factor))
-                        : "");
+    html += fmt::format(
+        "<li class=\"{}\" id=\"requirement-{}\"><b>{}</b> <span>{}</span> {}{}\n", words[r].word, r + 1,
+        stateOf(requirement, words[r]), escapeHtml(words[r].name), escapeHtml(sentences[r]),
+        requirement.factor > 0 && requirement.word != Decision::met
+            ? fmt::format(" It is met in every case if all tolerances shrink to {}.", percentText(requirement.factor))
+            : "");
     if (const std::optional<Worst> at = worstOf(results, requirement); at && ++shown <= drawn)
       html += "<div class=\"seen\">" + marginBar(results, requirement, *at) + closeUp(report, r, *at) + "</div>\n";
     html += threeAnswers(words[r]) + "</li>\n";
