@@ -5,7 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -13,7 +15,9 @@
 #include <vector>
 
 #include "commands/interrupts.hpp"
+#include "commands/mpi_communicator.hpp"
 #include "commands/options.hpp"
+#include "commands/ranks.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
 #include "mechanics/description/names.hpp"
@@ -22,6 +26,7 @@
 #include "studies/results/results_file.hpp"
 #include "studies/study.hpp"
 #include "studies/version.hpp"
+#include "studies/watch.hpp"
 
 namespace {
 
@@ -62,6 +67,26 @@ std::string complaintOf(const CLI::ParseError& error, const CLI::App& command) {
   return error.what();
 }
 
+/// Ranks but the first say nothing.
+ExitCode actAsRank(const Action& action, [[maybe_unused]] const StartedAs& started) {
+#ifdef GAMUT_MPI
+  int onOneMachine = 1;
+  const std::unique_ptr<Communicator> all = startedByMpi(onOneMachine);
+  if (!all->isFirst() &&
+      (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr))
+    throw std::system_error(errno, std::generic_category(), "/dev/null");
+  shareMemory(onOneMachine);
+  setRanks(all.get());
+  const ExitCode code = action();
+  setRanks(nullptr);
+  return code;
+#else
+  static_cast<void>(action);
+  throw UsageError(fmt::format("was started as {} processes, and built without MPI; expected one, or a build with MPI",
+                               started.count));
+#endif
+}
+
 ExitCode parseAndRun(int argc, char** argv) {
   CLI::App app("Gamut: guaranteed, probable and possible motion of uncertain mechanisms.");
   app.set_version_flag("--version", "gamut " + version());
@@ -86,7 +111,11 @@ ExitCode parseAndRun(int argc, char** argv) {
                                             : error.what();
     throw UsageError(fmt::format("{}; see gamut {}--help", what, asked.empty() ? "" : asked.front()->get_name() + " "));
   }
-  return action();
+  const StartedAs started = startedAs();
+  const std::string name = app.get_subcommands().front()->get_name();
+  const bool isShared = name == "run" || name == "resume";  // others are the first rank's alone
+  if (started.count > 1 && !isShared) return started.rank == 0 ? action() : done;
+  return started.count > 1 ? actAsRank(action, started) : action();
 }
 
 /// Whether anybody reads it changes nothing.

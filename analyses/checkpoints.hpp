@@ -37,6 +37,8 @@ class Checkpoints {
   double interval() const { return interval_; }
   /// While this is set nothing is recorded: what ends then was cut short.
   void heed(const std::atomic<bool>* stop) { stop_ = stop; }
+  /// Nothing is recorded any more.
+  void onlyRead() { isOnlyRead_ = true; }
 
  protected:
   /// What is known of a task.
@@ -53,11 +55,12 @@ class Checkpoints {
   friend class CheckpointedTask;
   using Clock = std::chrono::steady_clock;
   double since(Clock::time_point time) const { return std::chrono::duration<double>(Clock::now() - time).count(); }
-  bool mayWrite() const { return stop_ == nullptr || !*stop_; }
+  bool mayWrite() const { return !isOnlyRead_ && (stop_ == nullptr || !*stop_); }
 
   const double interval_;
   const std::thread::id owner_ = std::this_thread::get_id();
   const std::atomic<bool>* stop_ = nullptr;
+  bool isOnlyRead_ = false;
   std::uint64_t next_ = 0;
   Clock::time_point last_ = Clock::now();  // of the last record
 };

@@ -23,6 +23,19 @@ inline double threadCpuSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// While one lives its thread is one of several that take pieces of work in no order.
+class AmongWorkers {
+ public:
+  AmongWorkers() { ++depth_; }
+  ~AmongWorkers() { --depth_; }
+  AmongWorkers(const AmongWorkers&) = delete;
+  AmongWorkers& operator=(const AmongWorkers&) = delete;
+  static bool isSo() { return depth_ > 0; }
+
+ private:
+  static inline constinit thread_local int depth_ = 0;
+};
+
 /// Calls worker(i) for i = 0 … count-1, where `worker = makeWorker()` is made once on each of at most `jobs` threads.
 /// Ends early when `cancelled` is set. The first exception ends all and is thrown again here. What all workers counted
 /// as work, the calling thread has counted in the end.
@@ -33,6 +46,7 @@ void forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancelle
   std::exception_ptr failure;
   std::mutex mutex;
   const auto run = [&] {
+    const AmongWorkers among;
     try {
       auto worker = [&] {
         const Work::Aside own;

@@ -86,10 +86,11 @@ Action extend(CLI::App& command) {
   const auto arguments = std::make_shared<ExtendArguments>();
   addResults(command, arguments->input);
   command
-      .add_option("--samples", arguments->samples,
-                  "Number of samples in all, more than there are, 1 to 10000000; those that there are stay among them")
+      .add_option(
+          "--samples", arguments->samples,
+          "Number of samples in all, more than there are, 1 to 1000000000; those that there are stay among them")
       ->required()
-      ->check(wholeNumber(1, 10000000))
+      ->check(wholeNumber(1, 1000000000))
       ->type_name("N");
   command.add_option("-o,--output", arguments->results, "Results file; otherwise the same, which is replaced")
       ->type_name("OUT.h5");

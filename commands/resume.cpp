@@ -5,14 +5,13 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "commands/files.hpp"
-#include "commands/interrupts.hpp"
 #include "commands/options.hpp"
 #include "commands/preparation.hpp"
-#include "commands/progress.hpp"
+#include "commands/ranks.hpp"
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
 #include "studies/checkpoint_file.hpp"
@@ -49,44 +48,63 @@ Study studyOfPlan(const CheckpointPlan& plan, const std::string& path) {
   return study;
 }
 
-ExitCode resume(ResumeArguments arguments) {
-  const std::string path = checkpointOf(arguments.results);
-  if (!fs::exists(path)) refuseWithoutMemory(arguments.results, path);
-  const bool isForced = arguments.force;
-  // Its right to write the results comes first: a run that is still there keeps it.
-  OutputFile resultsFile(arguments.results, OutputFile::Existing::isReplaced);
-  std::unique_ptr<CheckpointFile> checkpoints;
+std::unique_ptr<CheckpointFile> checkpointsOf(const std::string& path) {
   try {
-    checkpoints = CheckpointFile::open(checkpointOf(resultsFile.target()), sayNote);
+    return CheckpointFile::open(path, sayNote);
   } catch (const CheckpointError& error) {
     throw UsageError(error.what());
   }
-  const CheckpointPlan& plan = checkpoints->plan();
-  arguments.force = isForced || plan.isReplaced;
-  if (!arguments.force && fs::exists(arguments.results))
-    throw OutputRefused(arguments.results + ": exists already, since the run was killed; expected --force");
-  const Machine machine = prepared(studyOfPlan(plan, path), arguments.quiet, plan.timeLimit);
-  RunOptions options = runOptions(arguments);
+}
+
+/// What every rank does before they go on together. Throws what there is to complain of.
+std::optional<Machine> prepare(ResumeArguments& arguments, CheckpointFile& checkpoints, RunOptions& options) {
+  const CheckpointPlan& plan = checkpoints.plan();
+  const Study study = studyOfPlan(plan, checkpoints.path());
+  options = runOptions(arguments);
   options.seed = plan.seed;
   options.samples = plan.samples;
   options.timeLimit = plan.timeLimit;
   options.memoryLimit = plan.memoryLimit;
+  options.communicator = ranks();
+  return prepared(study, arguments.quiet, plan.timeLimit);
+}
+
+/// Of a rank that is not the first: it remembers what that one does.
+ExitCode takePartIn(ResumeArguments arguments, const std::string& path) {
+  std::unique_ptr<CheckpointFile> checkpoints;
+  std::optional<Machine> machine;
+  RunOptions options;
+  onAllRanks([&] {
+    arguments.quiet = true;
+    checkpoints = checkpointsOf(path);
+    checkpoints->onlyRead();
+    machine = prepare(arguments, *checkpoints, options);
+  });
   options.checkpoints = checkpoints.get();
-  OutputFile reportFile =
-      reserve(arguments.report.empty() ? plan.report : arguments.report, arguments.results, arguments.force);
-  noteInterrupts();
-  ProgressBar bar(!arguments.quiet);
-  options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
-  Results results;
-  try {
-    results = gamut::run(machine, options);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(machine.study.file + ": " + error.what());
-  }
-  bar.wipe();
-  const ExitCode code = keepAndSay(results, resultsFile, reportFile, arguments);
-  checkpoints->remove();
-  return code;
+  return takePart(*machine, std::move(options));
+}
+
+ExitCode resume(ResumeArguments arguments) {
+  const std::string path = checkpointOf(arguments.results);
+  if (!isFirstRank()) return takePartIn(std::move(arguments), path);
+  std::unique_ptr<OutputFile> resultsFile, reportFile;
+  std::unique_ptr<CheckpointFile> checkpoints;
+  std::optional<Machine> machine;
+  RunOptions options;
+  onAllRanks([&] {
+    if (!fs::exists(path)) refuseWithoutMemory(arguments.results, path);
+    // Its right to write the results comes first: a run that is still there keeps it.
+    resultsFile = std::make_unique<OutputFile>(arguments.results, OutputFile::Existing::isReplaced);
+    checkpoints = checkpointsOf(checkpointOf(resultsFile->target()));
+    const CheckpointPlan& plan = checkpoints->plan();
+    arguments.force = arguments.force || plan.isReplaced;
+    if (!arguments.force && fs::exists(arguments.results))
+      throw OutputRefused(arguments.results + ": exists already, since the run was killed; expected --force");
+    machine = prepare(arguments, *checkpoints, options);
+    const std::string& report = arguments.report.empty() ? plan.report : arguments.report;
+    reportFile.reset(new OutputFile(reserve(report, arguments.results, arguments.force)));
+  });
+  return runAndKeep(*machine, std::move(options), checkpoints.get(), *resultsFile, *reportFile, arguments);
 }
 
 }  // namespace

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "commands/files.hpp"
 #include "commands/interrupts.hpp"
 #include "commands/options.hpp"
-#include "commands/progress.hpp"
+#include "commands/ranks.hpp"
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
 #include "studies/checkpoint_file.hpp"
@@ -64,33 +64,43 @@ void refuseToForget(const RunCommandArguments& arguments) {
                     path, shellQuoted(arguments.results)));
 }
 
+/// What every rank does before they run it together: reads the study, and sees whether it can be.
+std::optional<Machine> prepare(RunCommandArguments& arguments, RunOptions& options) {
+  std::optional<Machine> machine;
+  onAllRanks([&] {
+    if (ranks() != nullptr && arguments.study == "-")
+      throw UsageError("several processes cannot read a study from standard input; expected a file");
+    machine.emplace(readMachine(arguments.study, arguments.quiet, arguments.timeLimit));
+    nameOutputs(arguments);
+    options = runOptions(arguments);
+    options.seed = arguments.seed;
+    options.samples = arguments.samples;
+    options.communicator = ranks();
+    checkMemory(machine->study, options);
+  });
+  return machine;
+}
+
 ExitCode run(RunCommandArguments arguments) {
-  const Machine machine = readMachine(arguments.study, arguments.quiet, arguments.timeLimit);
-  nameOutputs(arguments);
-  RunOptions options = runOptions(arguments);
-  options.seed = arguments.seed;
-  options.samples = arguments.samples;
-  checkMemory(machine.study, options);
-  OutputFile resultsFile = reserve(arguments.results, arguments.study, arguments.force);
-  OutputFile reportFile = reserve(arguments.report, arguments.study, arguments.force);
-  refuseToForget(arguments);
-  std::optional<CheckpointFile> checkpoints;
-  if (arguments.interval > 0)
-    options.checkpoints =
-        &checkpoints.emplace(checkpointOf(resultsFile.target()), planOf(machine.study, options, arguments), sayNote);
-  noteInterrupts();
-  ProgressBar bar(!arguments.quiet);
-  options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
-  Results results;
-  try {
-    results = gamut::run(machine, options);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(machine.study.file + ": " + error.what());
+  arguments.quiet = arguments.quiet || !isFirstRank();
+  RunOptions options;
+  const std::optional<Machine> prepared = prepare(arguments, options);
+  const Machine& machine = *prepared;
+  if (!isFirstRank()) {
+    onAllRanks([] {});
+    return takePart(machine, std::move(options));
   }
-  bar.wipe();
-  const ExitCode code = keepAndSay(results, resultsFile, reportFile, arguments);
-  if (checkpoints) checkpoints->remove();
-  return code;
+  std::unique_ptr<OutputFile> resultsFile, reportFile;
+  std::optional<CheckpointFile> checkpoints;
+  onAllRanks([&] {
+    resultsFile.reset(new OutputFile(reserve(arguments.results, arguments.study, arguments.force)));
+    reportFile.reset(new OutputFile(reserve(arguments.report, arguments.study, arguments.force)));
+    refuseToForget(arguments);
+    if (arguments.interval > 0)
+      checkpoints.emplace(checkpointOf(resultsFile->target()), planOf(machine.study, options, arguments), sayNote);
+  });
+  return runAndKeep(machine, std::move(options), checkpoints ? &*checkpoints : nullptr, *resultsFile, *reportFile,
+                    arguments);
 }
 
 }  // namespace

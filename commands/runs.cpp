@@ -9,18 +9,22 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
+#include "analyses/communicator.hpp"
 #include "commands/files.hpp"
 #include "commands/interrupts.hpp"
 #include "commands/keeping.hpp"
 #include "commands/options.hpp"
+#include "commands/progress.hpp"
 #include "commands/verdict_lines.hpp"
 #include "reports/json.hpp"
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
 #include "reports/words.hpp"
+#include "studies/checkpoint_file.hpp"
 #include "studies/printable.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/watch.hpp"
@@ -114,8 +118,8 @@ void addPlanOptions(CLI::App& command, std::optional<std::uint64_t>& seed, std::
   command.add_option("--seed", seed, "Seed of the sampling plan, a whole number, instead of the study's")
       ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
       ->type_name("N");
-  command.add_option("--samples", samples, "Number of samples, 1 to 10000000, instead of the study's")
-      ->check(wholeNumber(1, 10000000))
+  command.add_option("--samples", samples, "Number of samples, 1 to 1000000000, instead of the study's")
+      ->check(wholeNumber(1, 1000000000))
       ->type_name("N");
 }
 
@@ -139,6 +143,34 @@ void checkMemory(const Study& study, const RunOptions& options) {
                     study.file, countText(static_cast<long long>(study.outputs.size()), "output"),
                     countText(static_cast<long long>(study.times.size()), "time"), needed / 1e9, limit / 1e9,
                     std::ceil(needed / 1e6) / 1e3));
+}
+
+ExitCode runAndKeep(const Machine& machine, RunOptions options, CheckpointFile* checkpoints, OutputFile& resultsFile,
+                    OutputFile& reportFile, const RunArguments& arguments) {
+  options.checkpoints = checkpoints;
+  noteInterrupts();
+  ProgressBar bar(!arguments.quiet);
+  options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
+  Results results;
+  try {
+    results = gamut::run(machine, options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(machine.study.file + ": " + error.what());
+  }
+  bar.wipe();
+  const ExitCode code = keepAndSay(results, resultsFile, reportFile, arguments);
+  if (checkpoints != nullptr) checkpoints->remove();
+  return code;
+}
+
+ExitCode takePart(const Machine& machine, RunOptions options) {
+  noteInterrupts();
+  options.overdue = {};
+  try {
+    gamut::run(machine, options);
+  } catch (const Communicator::Parted&) {  // the first goes on alone
+  }
+  return done;
 }
 
 ExitCode keepAndSay(const Results& results, OutputFile& resultsFile, OutputFile& reportFile,

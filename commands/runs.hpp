@@ -12,6 +12,8 @@
 
 namespace gamut {
 
+class CheckpointFile;
+
 struct RunArguments {
   RunArguments();
 
@@ -34,6 +36,14 @@ void sayNote(const std::string& line);
 
 /// Throws UsageError if samples need more memory than there may be: a block's motions are kept until it was compared.
 void checkMemory(const Study& study, const RunOptions& options);
+
+/// Runs the study's analyses, shows how far they are, and keeps what they found as keepAndSay does; then a run that was
+/// remembered is forgotten. `checkpoints`: null of one that is not.
+ExitCode runAndKeep(const Machine& machine, RunOptions options, CheckpointFile* checkpoints, OutputFile& resultsFile,
+                    OutputFile& reportFile, const RunArguments& arguments);
+
+/// Of a rank that is not the first, which says and keeps nothing.
+ExitCode takePart(const Machine& machine, RunOptions options);
 
 /// Writes the results, then draws the page, and says what was found, as was asked for, and where it is. Throws
 /// WriteError if one of both could not be written; what was found has been told then.

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -49,6 +50,13 @@ class Archive {
   template <class... T>
   void operator()(T&... values) {
     (value(values), ...);
+  }
+
+  /// Writes or reads what lies in these places, which are there.
+  template <class T>
+  void bytes(std::span<T> places) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes(places.data(), places.size_bytes());
   }
 
  private:

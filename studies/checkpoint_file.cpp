@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -192,14 +193,11 @@ std::string digestOfProgram() {
   return fmt::format("{:016x}", digest);
 }
 
-/// What the last digits of numbers depend on: the program, and the processor.
-std::string builtBy() { return fmt::format("gamut {}, build {}", version(), digestOfProgram()); }
-std::string processor() {
-  std::string name = nameOf(usableUnits().back());
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("fma")) name += " with fused products";
-#endif
-  return name;
+/// Whether lines are such as some build on some processor writes.
+bool areSound(const std::string& build, const std::string& where) {
+  static const std::regex ofBuilds("gamut [0-9]+[.][0-9]+[.][0-9]+, build [0-9a-f]{16}");
+  static const std::regex ofProcessors("(baseline|AVX2|AVX-512)( with fused products)?");
+  return std::regex_match(build, ofBuilds) && std::regex_match(where, ofProcessors);
 }
 
 std::string heading() { return fmt::format("{}{}\n{}\n", title, builtBy(), processor()); }
@@ -219,7 +217,13 @@ void checkHeading(const std::string& path, int file) {
     for (; number > 0 && from != begin.npos; --number) from = begin.find('\n', from) + 1;
     return begin.substr(from, begin.find('\n', from) - from);
   };
-  if (!begin.starts_with(title) || line(1) != builtBy())
+  if (begin.starts_with(title) && !areSound(line(1), line(2)))
+    throw CheckpointError(
+        fmt::format("{}: damaged; expected the file as gamut run wrote it, or run the study again", path));
+  if (!begin.starts_with(title))
+    throw CheckpointError(
+        fmt::format("{}: is of another format; expected {}", path, title.substr(0, title.size() - 1)));
+  if (line(1) != builtBy())
     throw CheckpointError(
         fmt::format("{}: was written by {}, and this is {}: numbers might differ in their last "
                     "digits; expected the same program, or run the study again",
@@ -232,6 +236,16 @@ void checkHeading(const std::string& path, int file) {
 }
 
 }  // namespace
+
+std::string builtBy() { return fmt::format("gamut {}, build {}", version(), digestOfProgram()); }
+
+std::string processor() {
+  std::string name = nameOf(usableUnits().back());
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("fma")) name += " with fused products";
+#endif
+  return name;
+}
 
 void CheckpointPlan::archive(Archive& all) {
   all(studyText, robotText, tablesText, studyFile, seed, samples, timeLimit, memoryLimit, report, isReplaced, interval);
@@ -263,7 +277,10 @@ std::unique_ptr<CheckpointFile> CheckpointFile::open(const std::string& path,
     while (isWhole && (isWhole = reader.nextChunk()) && !reader.isOver()) {
     }
     if (!isWhole || !reader.end())
-      throw CheckpointError(fmt::format("{}: remembers nothing yet; run the study again", path));
+      throw CheckpointError(
+          fmt::format("{}: holds nothing that is whole: the run was killed at once, or the file is damaged; expected "
+                      "the file as gamut run wrote it, or run the study again",
+                      path));
     RecordReader again(file, heading().size());
     again.begin(head);
     Archive all = Archive::reading([&](void* bytes, std::size_t size) { again.give(bytes, size); });

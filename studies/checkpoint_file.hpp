@@ -16,6 +16,10 @@
 
 namespace gamut {
 
+/// What the last digits of numbers depend on: the program, and the processor.
+std::string builtBy();
+std::string processor();
+
 /// What a run was asked for, so that it can be asked again.
 struct CheckpointPlan {
   std::string studyText, robotText, tablesText, studyFile;  ///< as in Origin

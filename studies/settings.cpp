@@ -159,11 +159,12 @@ NumberOf positive() {
 
 void describeStochastic(Settings& s, Study& study) {
   EnsembleOptions& ensemble = study.ensemble;
-  s.whole({"samples",
-           "how many samples, up to 10 000 000; corners, centre, points inside the alpha-cuts and extremes are sampled "
-           "besides, see below",
-           "4096"},
-          1, 10000000, ensemble.samples);
+  s.whole(
+      {"samples",
+       "how many samples, up to 1 000 000 000; corners, centre, points inside the alpha-cuts and extremes are sampled "
+       "besides, see below",
+       "4096"},
+      1, 1000000000, ensemble.samples);
   s.choice({"plan",
             "`\"sobol\"`, `\"random\"`, `\"latin-hypercube\"`, `\"halton\"` or `\"grid\"` (as many values of every "
             "quantity). All but the random one round the number of samples up: a grid to as many values of every "

@@ -74,10 +74,19 @@ Limits StatedLimits::resolved() const {
   return limits;
 }
 
+namespace {
+
+std::atomic<int> sharers{1};
+
+}  // namespace
+
+void shareMemory(int processes) { sharers = std::max(1, processes); }
+
 double memoryPresent() {
   const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
   return std::min(
-      {machine, limitIn("/sys/fs/cgroup/memory.max"), limitIn("/sys/fs/cgroup/memory/memory.limit_in_bytes")});
+             {machine, limitIn("/sys/fs/cgroup/memory.max"), limitIn("/sys/fs/cgroup/memory/memory.limit_in_bytes")}) /
+         sharers;
 }
 
 namespace {
@@ -173,6 +182,22 @@ void Watch::noteFormerStop(const std::string& why) {
   noteStop(why);
 }
 
+bool Watch::isToEnd() const {
+  const std::lock_guard lock(mutex_);
+  return stop_ && forAll_;
+}
+
+/// Whether it holds for the whole run stands before the reason.
+std::string Watch::tell() const {
+  const std::lock_guard lock(mutex_);
+  return stop_ ? (forAll_ ? "!" : ".") + why_ : "";
+}
+
+void Watch::hear(const std::string& told) {
+  const std::lock_guard lock(mutex_);
+  if (!stop_ && told.size() > 1) end(told.substr(1), "", told.front() == '!');
+}
+
 void Watch::endForMemory() {
   const std::string why = fmt::format("the memory limit of {:.3g} GB for {} was reached", memoryLimit() / 1e9,
                                       stage_ == Stage::enclosure ? "the enclosure" : "the whole run");
@@ -186,7 +211,7 @@ void Watch::run(const std::stop_token& token) {
     try {
       look();
     } catch (const std::bad_alloc&) {  // not even a sentence found room
-      stop_ = hasStopped_ = true;
+      stop_ = everStopped_ = hasStopped_ = true;
     }
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - stopped_;
     if (stop_ && stage_ == Stage::enclosure && overdue_.act && since.count() > overdue_.seconds) overdue_.act(why_);
@@ -197,7 +222,7 @@ void Watch::run(const std::stop_token& token) {
 void Watch::end(const std::string& why, const char* key, bool all) {
   forAll_ = all;
   if (!stop_) stopped_ = std::chrono::steady_clock::now();
-  stop_ = true;
+  stop_ = everStopped_ = true;
   why_ = why;
   key_ = key;
   if (all || stage_ == Stage::enclosure) noteStop(why);

@@ -29,6 +29,8 @@ struct StatedLimits {
 
 /// Memory that this process may use at most, bytes: the machine's, or its control group's.
 double memoryPresent();
+/// So many processes share it from now on.
+void shareMemory(int processes);
 
 /// CPU time of the process, all threads, with what was added to it, s.
 double processCpuSeconds();
@@ -73,6 +75,15 @@ class Watch {
   void memoryFailed();
   /// Why a stage had to end for the first time in a process before this one.
   void noteFormerStop(const std::string& why);
+  /// Set once any stage had to end, until that is forgotten.
+  const std::atomic<bool>* everStopped() const { return &everStopped_; }
+  void forgetStops() { everStopped_ = false; }
+  /// Whether all that follows must end.
+  bool isToEnd() const;
+  /// Why the stage must end, for the watch of another process that does the same; what such a watch says of it ends
+  /// this one's too.
+  std::string tell() const;
+  void hear(const std::string& told);
   /// CPU time since the watch began and before it, s.
   double spent() const;
 
@@ -90,7 +101,7 @@ class Watch {
   const double began_;
   double stageBegan_ = 0;
   Stage stage_ = Stage::rest;
-  std::atomic<bool> stop_{false};
+  std::atomic<bool> stop_{false}, everStopped_{false};
   bool forAll_ = false;  // what stopped the stage stops all that follow
   std::string why_, key_, first_;
   bool hasStopped_ = false;

@@ -64,11 +64,12 @@ void Settlement::boundLevels(std::size_t cell, std::vector<double>& lower, std::
 }
 
 /// The samples that leave their tightest bounds, by rising number.
-std::vector<std::size_t> Settlement::leavers(const SampleBlock& block) const {
+std::vector<std::size_t> Settlement::leavers(SampleBlock& block) const {
   std::vector<char> leaves(block.size(), 0);
   const std::size_t size = proved_.reachedTimes * system_.motion.outputs();
   forEachIndex(options_.jobs, block.packs(), nullptr, [&] {
     return [&](std::size_t pack) {
+      if (!block.isHere(pack)) return;
       const std::size_t first = pack * packWidth, count = std::min<std::size_t>(packWidth, block.size() - first);
       const double* row = block.pack(pack).data();
       std::vector<double> lower(1 + proved_.cuts.size()), upper(lower.size());
@@ -84,6 +85,7 @@ std::vector<std::size_t> Settlement::leavers(const SampleBlock& block) const {
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < block.size(); ++i)
     if (leaves[i] != 0) numbers.push_back(i);
+  block.fetch(numbers);
   return numbers;
 }
 

@@ -40,7 +40,7 @@ class Settlement {
 
  private:
   void boundLevels(std::size_t cell, std::vector<double>& lower, std::vector<double>& upper) const;
-  std::vector<std::size_t> leavers(const SampleBlock& block) const;
+  std::vector<std::size_t> leavers(SampleBlock& block) const;
   bool leaves(const SampleBlock& block, std::size_t sample, std::size_t cell, const Envelope& bounds) const;
   void settleOnce(SampleBlock& block, const std::vector<std::size_t>& disputed, const Take& take);
   void tellOf(const SampleBlock& block, std::size_t sample, std::size_t cell, const Take& take) const;

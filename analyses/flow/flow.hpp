@@ -25,6 +25,7 @@
 namespace gamut {
 
 class Checkpoints;
+class Communicator;
 
 /// An input: a parameter that varies in time within its interval of the box, in any measurable way. The enclosures hold
 /// every absolutely continuous solution of ẋ = f(t, x, p(t)) almost everywhere (of the differential inclusion).
@@ -100,6 +101,7 @@ struct FlowOptions {
   std::function<void(double)> progress;  ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was proved is kept
   Checkpoints* checkpoints = nullptr;            ///< what the computation remembers of itself, if anything
+  Communicator* communicator = nullptr;          ///< of the ranks that share it out, if any
 };
 
 /// Enclosures of all solutions that start in a box. Times are those asked for, and the horizon.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyses/checkpoints.hpp"
+#include "analyses/communicator.hpp"
 #include "analyses/flow/formulation.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
@@ -17,6 +18,8 @@ namespace gamut {
 Tube FlowRun::run() {
   CheckpointedTask checkpoint(task_.options.checkpoints);
   checkpoint_ = &checkpoint;
+  SharedWork shared(task_.options.communicator);
+  shared_ = &shared;
   const int jobs = std::max(1, task_.options.jobs);
   collected_.assign(jobs, FlowCollected(task_.times.size(), task_.levels.size()));
   failedAt_ = std::numeric_limits<double>::infinity();
@@ -27,7 +30,10 @@ Tube FlowRun::run() {
   };
   using Recalled = CheckpointedTask::Recalled;
   const Recalled recalled = checkpoint.recall(end, [this](Archive& all) { archiveState(all); });
-  if (recalled == Recalled::end) return tube;
+  if (recalled == Recalled::end) {
+    shared.end();
+    return tube;
+  }
   if (recalled == Recalled::nothing) {
     std::uint64_t noted = Work::counted();
     all_.push_back({start()});
@@ -40,9 +46,18 @@ Tube FlowRun::run() {
   return tube;
 }
 
-/// All that are there, on so many threads, to their ends.
+/// All that are there, on so many threads, to their ends. Ranks hear of a failure too, and what all of them collected.
 void FlowRun::follow(int jobs) {
+  followTurns(jobs);
+  if (!isTurnHeard_) hearTurn();  // was cut short
+  if (error_) std::rethrow_exception(error_);
+  shared_->end();
+}
+
+void FlowRun::followTurns(int jobs) {
+  std::uint64_t noted = Work::counted();
   beginTurn();
+  if (!hasEnded_ && shares_[shared_->rank()].empty()) turnOver(noted);
   std::vector<std::jthread> threads;
   std::atomic<std::uint64_t> counted{0};
   for (int i = 1; i < jobs; ++i)
@@ -53,7 +68,6 @@ void FlowRun::follow(int jobs) {
   work(collected_[0]);
   threads.clear();  // joins
   Work::add(counted);
-  if (error_) std::rethrow_exception(error_);
 }
 
 FlowPiece FlowRun::start() const {
@@ -75,9 +89,10 @@ void FlowRun::work(FlowCollected& collected) {
     FlowFollower follower(*this, task_, collected);
     std::unique_lock lock(mutex_);
     for (;;) {
-      wake_.wait(lock, [&] { return stop_ || hasEnded_ || next_ < turn_.size(); });
+      const Places& share = shares_[shared_->rank()];
+      wake_.wait(lock, [&] { return stop_ || hasEnded_ || next_ < share.size(); });
       if (stop_ || hasEnded_) break;
-      Traveller& traveller = all_[turn_[next_++]];
+      Traveller& traveller = all_[share[next_++]];
       lock.unlock();
       const std::uint64_t counted = Work::counted();
       traveller.journey = follower.followWhilePossible(traveller.piece, sliceEnd_, allowed_);
@@ -85,7 +100,7 @@ void FlowRun::work(FlowCollected& collected) {
       const double ended = threadCpuSeconds();
       collected.cpu += ended - std::exchange(began, ended);
       lock.lock();
-      counted_ += Work::counted() - counted;
+      counted_ += traveller.work = Work::counted() - counted;
       noteWork(noted);
       degree_ = std::max(degree_, task_.layouts[traveller.piece.layout].monomials->degree());
       outputDegree_ =
@@ -94,7 +109,7 @@ void FlowRun::work(FlowCollected& collected) {
         unfinished_ = std::min(unfinished_, traveller.piece.set.t);
         stop_ = true;
       }
-      if (++done_ == turn_.size() && !stop_) turnOver(noted);
+      if (++done_ == share.size() && !stop_) turnOver(noted);
       if (stop_ || done_ == 0) wake_.notify_all();
     }
   } catch (...) {
@@ -112,24 +127,40 @@ void FlowRun::noteWork(std::uint64_t& noted) {
   work_ += counted - std::exchange(noted, counted);
 }
 
-void FlowRun::turnOver(std::uint64_t& noted) {
-  double earliest = std::numeric_limits<double>::infinity();
-  for (const Traveller& traveller : all_) earliest = std::min(earliest, traveller.piece.set.t);
-  try {
-    endTurn();
-    noteWork(noted);
-    if (!stop_ && checkpoint_->isDue()) checkpoint_->record([this](Archive& all) { archiveState(all); }, work_);
-    if (!stop_) beginTurn();
-  } catch (const std::bad_alloc&) {  // what was proved until then is
-    outOfMemory_ = stop_ = true;
-    unfinished_ = std::min(unfinished_, earliest);
-    all_.clear();
+/// If that is due.
+void FlowRun::remember() {
+  if (isShared_ ? isRecordDue_ : checkpoint_->isDue()) {
+    gatherPieces();
+    handOverCollected();
+    checkpoint_->record([this](Archive& all) { archiveState(all); }, work_);
   }
+}
+
+/// With ranks, this one may have no share in the turns that follow.
+void FlowRun::turnOver(std::uint64_t& noted) {
+  do {
+    double earliest = std::numeric_limits<double>::infinity();
+    for (const Traveller& traveller : all_) earliest = std::min(earliest, traveller.piece.set.t);
+    try {
+      hearTurn();
+      if (stop_) return;
+      endTurn();
+      noteWork(noted);
+      if (!stop_) remember();
+      if (!stop_) beginTurn();
+    } catch (const std::bad_alloc&) {  // what was proved until then is
+      outOfMemory_ = stop_ = true;
+      unfinished_ = std::min(unfinished_, earliest);
+      all_.clear();
+      shared_->giveUp();
+    }
+  } while (!stop_ && !hasEnded_ && shares_[shared_->rank()].empty());
 }
 
 /// All pieces that are in the slice of time of the earliest. Each may do so little work that all of them together do
 /// not go far beyond what is left.
 void FlowRun::beginTurn() {
+  keepsModels_ = haveModelsRoom();
   double earliest = std::numeric_limits<double>::infinity();
   for (const Traveller& traveller : all_) earliest = std::min(earliest, traveller.piece.set.t);
   if (!(earliest < sliceEnd_)) {
@@ -141,6 +172,8 @@ void FlowRun::beginTurn() {
     if (all_[i].piece.set.t < sliceEnd_) turn_.push_back(i);
   next_ = done_ = 0;
   hasEnded_ = turn_.empty();
+  if (turn_.size() > 1 && shared_->count() > 1 && !isShared_) beginSharing();
+  shareOutTurn();
   allowed_ = task_.budget.left() / (4 * static_cast<double>(std::max<std::size_t>(turn_.size(), 1)));
 }
 
@@ -201,7 +234,7 @@ void FlowRun::dropModels() {
       }
       if (margins == 0) part.models[row] = {};
     }
-  modelAtBytes_ -= static_cast<std::uint64_t>(dropped);
+  modelAtBytes_ -= static_cast<std::uint64_t>(hearDropped(dropped));
 }
 
 void FlowRun::bisect(Traveller& traveller, std::vector<Traveller>& into) {
@@ -213,14 +246,19 @@ void FlowRun::bisect(Traveller& traveller, std::vector<Traveller>& into) {
   }
   traveller.piece.isPlaced = false;
   FlowPiece other = traveller.piece;
+  const std::uint64_t work = traveller.work;
+  const int owner = traveller.owner;
   traveller.piece.set = std::move(traveller.halves.first);
   other.set = std::move(traveller.halves.second);
   other.timeError = other.truncation = 0;
   other.tops = {};
   traveller.piece.path += '0';
   other.path += '1';
-  into.push_back({std::move(traveller.piece)});
-  into.push_back({std::move(other)});
+  for (FlowPiece* half : {&traveller.piece, &other}) {
+    into.push_back({std::move(*half)});
+    into.back().work = work;
+    into.back().owner = owner;
+  }
 }
 
 void FlowRun::report(double earliest) {  // the queue's order makes `earliest` the earliest of all waiting pieces
@@ -284,7 +322,7 @@ void FlowRun::probe(const FlowPiece& piece) {
 }
 
 std::shared_ptr<const FlowModels> FlowRun::modelsOf(std::size_t rows) {
-  if (!keepsModels()) return nullptr;
+  if (!haveModelsRoom()) return nullptr;
   auto models = std::make_shared<FlowModels>();
   for (const Embedded& e : task_.embedding.components) models->components.push_back({e.centre, e.half, e.symbol});
   models->symbols = task_.embedding.symbols;

@@ -1,7 +1,7 @@
 // One run of the flow over a box: all pieces go through a slice of time before any goes beyond, so that at any moment
 // the earliest says how far the whole box is proved. Threads take the pieces of a turn one by one; what follows from a
 // turn, bisections and ends, is decided when all of it is done, so that it does not depend on the threads. Every thread
-// collects hulls of its own, joined at the end.
+// collects hulls of its own, joined at the end. Ranks share out a turn as soon as there is more than one piece in it.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analyses/flow/journey.hpp"
@@ -21,6 +22,7 @@ namespace gamut {
 
 class Archive;
 class CheckpointedTask;
+class SharedWork;
 
 class FlowRun {
  public:
@@ -78,11 +80,8 @@ class FlowRun {
   void fail(const FlowPiece& piece, double t, const std::string& why) {
     fail(piece, t, FlowCause{FlowCause::Kind::stated, why});
   }
-  /// Whether models of outputs are wanted, and have found room so far.
-  bool keepsModels() const {
-    return (!task_.options.modelled.empty() || !task_.options.modelledAt.empty()) &&
-           static_cast<double>(modelBytes_) <= task_.options.modelBytes;
-  }
+  /// Whether models of outputs are wanted, and had found room when the turn began. The same in all of a turn.
+  bool keepsModels() const { return keepsModels_; }
   /// Likewise, of FlowOptions::modelledAt at this output time. The same in all of a turn.
   bool keepsModelsAt(std::size_t row) const {
     return keepsModelsAt_ && ((task_.times.size() - 1 - row) % everyModelAt_ == 0 ||
@@ -106,11 +105,33 @@ class FlowRun {
     FlowPiece piece;
     FlowJourney journey = FlowJourney::goesOn;
     FlowHalves halves{};
+    std::uint64_t work = 0;  // that it was in the last turn, its halves' too
+    int owner = -1;          // the rank that follows it, and alone has more of it than an outline; -1: all have all
   };
+  using Places = std::vector<std::size_t>;  // in all_
 
   FlowPiece start() const;
+  bool haveModelsRoom() const {
+    return (!task_.options.modelled.empty() || !task_.options.modelledAt.empty()) &&
+           static_cast<double>(modelBytes_) <= task_.options.modelBytes;
+  }
   void follow(int jobs);
+  void followTurns(int jobs);
   void work(FlowCollected& collected);
+  void beginSharing();
+  void shareOutTurn();
+  void assignTurn();
+  void movePieces(const std::vector<int>& from);
+  std::string packed(Traveller& traveller) const;
+  void unpack(std::string_view bytes, Traveller& traveller) const;
+  void gatherPieces();
+  void archiveTurn(Archive& all, const Places& places);
+  void archiveCollected(Archive& all);
+  void hearTurn();
+  void handOverCollected();
+  double hearDropped(double bytes);
+  void forgetCollected();
+  void remember();
   void turnOver(std::uint64_t& noted);
   void noteWork(std::uint64_t& noted);
   void archiveFindings(Archive& all);
@@ -138,9 +159,12 @@ class FlowRun {
   const FlowTask& task_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::vector<Traveller> all_;     // in the order of their paths
-  std::vector<std::size_t> turn_;  // those that are followed in this turn
-  std::size_t next_ = 0, done_ = 0;
+  std::vector<Traveller> all_;  // in the order of their paths
+  Places turn_;                 // those that are followed in this turn
+  std::vector<Places> shares_;  // of these, by rank
+  SharedWork* shared_ = nullptr;
+  bool isShared_ = false, isTurnHeard_ = true, isRecordDue_ = false;
+  std::size_t next_ = 0, done_ = 0;    // of this rank's share
   double sliceEnd_ = 0, allowed_ = 0;  // for every piece in it: until when, how much work
   std::uint64_t counted_ = 0;          // by the threads in it
   std::uint64_t work_ = 0;             // by all threads since the beginning
@@ -160,8 +184,9 @@ class FlowRun {
   std::atomic<bool> outOfMemory_{false}, isAbandoned_{false}, areAlternatives_{false};
   std::vector<FlowCollected> collected_;  // one a thread
   std::size_t everyModelAt_ = 1;          // output times, counted from the last
-  bool keepsModelsAt_ = true;
+  bool keepsModels_ = false, keepsModelsAt_ = true;
   std::atomic<std::uint64_t> modelBytes_{0}, modelAtBytes_{0};
+  std::uint64_t bytesBefore_ = 0, bytesAtBefore_ = 0;  // these, when the turn began
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   FlowCause cause_;
   std::string failed_;  // the path of the piece that did

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "analyses/shared_indices.hpp"
 #include "analyses/work.hpp"
-#include "analyses/workers.hpp"
 
 namespace gamut {
 
@@ -110,7 +110,7 @@ void OutputDistributions::boundThese(std::span<const std::size_t> these, const T
   options.mostWork = work;
   options.mostCells = mostCells();
   std::atomic<std::size_t> done{0};
-  forEachIndex(options_.jobs, these.size(), options_.cancelled, [&] {
+  const auto find = [&] {
     return [&](std::size_t number) {
       const std::size_t i = these[number], output = i % outputs();
       Tried& tried = tried_[i];
@@ -134,7 +134,14 @@ void OutputDistributions::boundThese(std::span<const std::size_t> these, const T
         tried.isLimited = tried.mayHelp = false;  // finer cells would know hardly more
       if (options_.progress) options_.progress(static_cast<double>(++done) / static_cast<double>(these.size()));
     };
-  });
+  };
+  forEachShared(options_.communicator, options_.jobs, these.size(), options_.cancelled, find,
+                [&](Archive& all, std::size_t number) {
+                  DistributionBounds& bounds = found_[these[number]];
+                  Tried& tried = tried_[these[number]];
+                  all(bounds.value, bounds.lower, bounds.upper, bounds.gap, bounds.isLimited, tried.work,
+                      tried.isLimited, tried.mayHelp);
+                });
 }
 
 std::size_t OutputDistributions::mostCells() const {

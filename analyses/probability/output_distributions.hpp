@@ -15,6 +15,8 @@
 
 namespace gamut {
 
+class Communicator;
+
 struct OutputDistributionsOptions {
   double gap = 0.005;  ///< between the bounds, aimed at
   int jobs = 1;        ///< threads
@@ -22,6 +24,7 @@ struct OutputDistributionsOptions {
   /// That may still be done (work.hpp), of which a fifth is left to others. Has to be there.
   std::function<double()> workLeft;
   std::function<void(double)> progress = {};  ///< from any thread
+  Communicator* communicator = nullptr;       ///< of the ranks that share it out, if any
 };
 
 class OutputDistributions {

@@ -30,6 +30,8 @@ class BatchStatistics {
 
   std::size_t parts() const { return parts_; }
   void archive(Archive& all);
+  /// So many cells, from `first` on.
+  void archiveCells(Archive& all, std::size_t first, std::size_t count);
 
   /// Parts where so many outputs at so many times are counted: 64, or fewer, so that all together have some 2^21, but
   /// at least 8.

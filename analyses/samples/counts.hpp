@@ -30,6 +30,8 @@ class Counts {
   }
 
   void archive(Archive& all);
+  /// So many of them, from `first` on.
+  void archive(Archive& all, std::size_t first, std::size_t count);
 
   /// Bytes that each takes.
   static std::size_t bytesOf(std::size_t most) { return areFew(most) ? sizeof(std::uint16_t) : sizeof(std::uint32_t); }

@@ -10,7 +10,9 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
+#include "analyses/communicator.hpp"
 #include "analyses/samples/arbiter.hpp"
 #include "analyses/samples/archive.hpp"
 #include "analyses/samples/named_corners.hpp"
@@ -150,6 +152,49 @@ class PieceIntegrator {
   std::optional<PackWitness> together_;
   std::vector<double> starts_, trajectory_;
 };
+
+enum Told : int { toldBegin, toldSamples, toldRows, toldErrors, toldStatistics };
+
+/// What ranks have made of a block's pieces: of each so many samples have ended.
+struct PiecesOfRank {
+  SampleBlock& block;
+  const std::vector<Piece>& pieces;
+  const std::vector<std::size_t>& mine;
+  std::vector<std::size_t>& ended;
+  bool areMotionsTold = true;
+};
+
+/// All ranks have what each of them has. `heard`: how many samples more have ended elsewhere, and what was `said`.
+template <class Heard>
+void tellPieces(SharedWork& shared, const PiecesOfRank& of, bool said, std::uint64_t work, const Heard& heard) {
+  shared.exchange(
+      toldSamples,
+      [&](Archive& all) {
+        std::size_t count = of.mine.size();
+        all(said, work, count);
+        for (std::size_t piece : of.mine) {
+          all(piece, of.ended[piece]);
+          of.block.archiveValues(all, of.pieces[piece].first, of.ended[piece]);
+          if (of.areMotionsTold) of.block.archiveMotions(all, of.pieces[piece].first, of.ended[piece]);
+        }
+      },
+      [&](int, Archive& all) {
+        bool saidThere = false;
+        std::uint64_t more = 0;
+        std::size_t count = 0, samplesMore = 0;
+        all(saidThere, more, count);
+        for (; count > 0; --count) {
+          std::size_t piece = 0, ended = 0;
+          all(piece, ended);
+          of.block.archiveValues(all, of.pieces.at(piece).first, ended);
+          if (of.areMotionsTold) of.block.archiveMotions(all, of.pieces[piece].first, ended);
+          samplesMore += ended - of.ended[piece];
+          of.ended[piece] = ended;
+        }
+        Work::add(more);
+        heard(samplesMore, saidThere);
+      });
+}
 
 /// Every how manyth sample is integrated twice.
 std::size_t errorStrideFor(std::size_t samples) {
@@ -401,7 +446,8 @@ void EnsembleRun::setExtremes(std::vector<std::vector<double>> extremes) {
 
 std::size_t EnsembleRun::packWidth() const { return widthOf(system_.motion, options_.method); }
 
-bool EnsembleRun::isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
+/// What is shared out ends there too, and begins anew.
+bool EnsembleRun::isCancelled() const { return isStopped() || (shared_ != nullptr && shared_->isOver()); }
 
 /// Reports every hundredth of the work, from whatever thread completes it.
 void EnsembleRun::completeOne() {
@@ -424,7 +470,7 @@ bool EnsembleRun::isSwitching(std::size_t number) const {
 
 /// The samples from `next` on, before `end`, that make a block. A pack that was cut off inside was being integrated one
 /// by one: the rest of it makes a block of its own, and goes on so.
-SampleBlock EnsembleRun::nextBlock(std::size_t next, std::size_t end) const {
+SampleBlock EnsembleRun::nextBlock(std::size_t next, std::size_t end) {
   const std::size_t place = placeInPack(next);
   const std::size_t count = place == 0 ? end - next : std::min(end - next, gamut::packWidth - place);
   return {next,
@@ -432,7 +478,8 @@ SampleBlock EnsembleRun::nextBlock(std::size_t next, std::size_t end) const {
           next < sampling_.samples(),
           sampling_.quantities(),
           system_.motion.times.size(),
-          system_.motion.outputs()};
+          system_.motion.outputs(),
+          std::exchange(spare_, {})};
 }
 
 void EnsembleRun::pauseWhen(std::function<bool()> isDue, std::function<void()> pause) {
@@ -458,16 +505,21 @@ std::size_t EnsembleRun::widthFor(const SampleBlock& block) const {
   return placeInPack(block.first()) == 0 && !isSwitching(block.first()) ? packWidth() : 1;
 }
 
-/// Those pieces that have not ended, until it is cancelled or a pause is due.
-void EnsembleRun::integratePieces(SampleBlock& block, std::vector<std::size_t>& ended) {
+/// Those pieces that have not ended, until it is cancelled or a pause is due: whether that is so.
+bool EnsembleRun::integratePieces(SampleBlock& block, std::vector<std::size_t>& ended) {
   const std::vector<Piece> pieces = piecesOf(block.size(), widthFor(block));
-  std::vector<std::size_t> left;
-  for (std::size_t piece = 0; piece < pieces.size(); ++piece)
-    if (ended[piece] < pieces[piece].count) left.push_back(piece);
+  std::vector<std::size_t> mine;
+  std::size_t left = 0;
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    if (ended[piece] == pieces[piece].count) continue;
+    if (shared_->isMine(isSpread(block) ? pieces[piece].first / gamut::packWidth : left++)) mine.push_back(piece);
+  }
   std::atomic<bool> ends{false};
-  forEachIndex(options_.jobs, left.size(), &ends, [&] {
+  const auto isDue = [this] { return isPauseDue_ && isPauseDue_(); };
+  const std::uint64_t before = Work::counted();
+  forEachIndex(options_.jobs, mine.size(), &ends, [&] {
     return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t number) mutable {
-      const std::size_t piece = left[number];
+      const std::size_t piece = mine[number];
       const auto [first, count] = pieces[piece];
       for (std::size_t i = first; i < first + count; ++i) {
         sampling_.toValues(block.first() + i, system_.uncertain, block.values(i));
@@ -477,9 +529,16 @@ void EnsembleRun::integratePieces(SampleBlock& block, std::vector<std::size_t>& 
         ended[piece] += more;
         for (std::size_t k = 0; k < more; ++k) completeOne();
       });
-      if (isCancelled() || (isPauseDue_ && isPauseDue_())) ends = true;
+      if (isStopped() || isDue()) ends = true;
     };
   });
+  bool isAnyDue = isDue();
+  const auto heard = [&](std::size_t more, bool isOtherDue) {
+    isAnyDue = isAnyDue || isOtherDue;
+    for (std::size_t k = 0; k < more; ++k) completeOne();
+  };
+  tellPieces(*shared_, {block, pieces, mine, ended, !isSpread(block)}, isAnyDue, Work::counted() - before, heard);
+  return isAnyDue;
 }
 
 /// Cuts the block off before the first sample that was cancelled.
@@ -491,9 +550,21 @@ void EnsembleRun::integrate(SampleBlock& block, std::vector<std::size_t>& ended)
       if (ended[i] < pieces[i].count) return false;
     return true;
   };
-  while (!isCancelled() && !isWhole()) {
-    integratePieces(block, ended);
-    if (!isCancelled() && isPauseDue_ && isPauseDue_()) pause_();
+  while (!isCancelled() && !isWhole())
+    if (integratePieces(block, ended) && !isCancelled()) {
+      if (isSpread(block)) {
+        std::vector<std::size_t> mine;
+        for (std::size_t i = 0; i < pieces.size(); ++i)
+          if (ended[i] > 0 && shared_->isMine(pieces[i].first / gamut::packWidth)) mine.push_back(i);
+        tellPieces(*shared_, {block, pieces, mine, ended}, false, 0, [](std::size_t, bool) {});
+      }
+      handOverStatistics();
+      if (pause_) pause_();
+    }
+  if (isSpread(block)) {
+    if (!shared_->isOver() && isWhole()) return spread(block);
+    for (const std::size_t count : ended) done_ -= count;
+    return block.keepFirst(0);
   }
   std::size_t kept = 0, piece = 0;
   while (piece < pieces.size() && ended[piece] == pieces[piece].count) kept += ended[piece++];
@@ -503,23 +574,82 @@ void EnsembleRun::integrate(SampleBlock& block, std::vector<std::size_t>& ended)
   block.keepFirst(kept);
 }
 
+/// What all ranks compared.
+void EnsembleRun::tellErrors(std::size_t compared, std::uint64_t work) {
+  shared_->exchange(
+      toldErrors, [&](Archive& all) { all(compared, work, error_); },
+      [&](int, Archive& all) {
+        std::size_t theirs = 0;
+        std::uint64_t more = 0;
+        Table error;
+        all(theirs, more, error);
+        for (std::size_t i = 0; i < error.data.size(); ++i)
+          if (!std::isnan(error.data[i]) && !(error_.data[i] >= error.data[i])) error_.data[i] = error.data[i];
+        for (; theirs > 0; --theirs) completeOne();
+        Work::add(more);
+      });
+}
+
+/// In statistics: from the first to before the second.
+std::pair<std::size_t, std::size_t> EnsembleRun::timesOf(int rank) const {
+  const std::size_t times = system_.motion.times.size(), ranks = shared_->count();
+  return {times * rank / ranks, times * (rank + 1) / ranks};
+}
+
+/// Once statistics take them.
+bool EnsembleRun::isSpread(const SampleBlock& block) const {
+  return options_.spreads && statistics_ && block.hasWeight() && shared_->count() > 1;
+}
+
+/// To each rank the rows of its times, of all packs.
+void EnsembleRun::spread(SampleBlock& block) {
+  const auto archive = [&](Archive& all, int owner, int ofTimes) {
+    const auto [from, to] = timesOf(ofTimes);
+    for (std::size_t pack = owner; pack < block.packs(); pack += shared_->count())
+      block.archiveRows(all, pack, from, to);
+  };
+  shared_->exchangeEach(
+      toldRows, [&](int to, Archive& all) { archive(all, shared_->rank(), to); },
+      [&](int from, Archive& all) { archive(all, from, shared_->rank()); });
+  block.spread = shared_;
+}
+
+/// The statistics of the times that are a rank's: its own, or another's beside them.
+void EnsembleRun::archiveOwnTimes(Archive& all) {
+  bool areThere = statistics_.has_value();
+  int rank = shared_->rank();
+  all(areThere, rank);
+  const auto [from, to] = timesOf(rank);
+  if (areThere && statistics_) statistics_->archiveTimes(all, from, to);
+}
+
+/// To all ranks, of which the first may write them down.
+void EnsembleRun::handOverStatistics() {
+  shared_->exchange(
+      toldStatistics, [this](Archive& all) { archiveOwnTimes(all); },
+      [this](int, Archive& all) { archiveOwnTimes(all); });
+}
+
 /// Of a few samples on switching courses, which begin anew at every switch, besides.
 void EnsembleRun::measureSwitchingError(const SampleBlock& block) {
   const Sampling::Zone zone = sampling_.zoneOf(block.first());
   const std::size_t stride = (zone.end - zone.begin + leastErrorSamples - 1) / leastErrorSamples;
   const Tolerance tight = options_.tolerance.tightened(errorTightening);
   std::mutex mutex;
+  const std::uint64_t before = Work::counted();
   forEachIndex(options_.jobs, block.size(), options_.cancelled, [&] {
     return [&, witness = Witness(system_.switching.motion, options_.method, options_.cancelled),
             again = std::vector<double>(error_.data.size())](std::size_t i) mutable {
       const std::vector<SwitchingCourse>* courses = system_.switchingAt(block.values(i));
-      if ((block.first() + i - zone.begin) % stride != 0 || courses == nullptr) return;
+      const std::size_t number = block.first() + i - zone.begin;
+      if (number % stride != 0 || !shared_->isMine(number / stride) || courses == nullptr) return;
       integrateAlong(witness, system_, *courses, system_.start(block.values(i)), tight, again,
                      options_.secondsPerSample);
       const std::lock_guard lock(mutex);
       includeDifference(error_, block.trajectory(i), again);
     };
   });
+  tellErrors(0, Work::counted() - before);
 }
 
 /// Unless that is known already.
@@ -527,11 +657,15 @@ void EnsembleRun::measureError(const SampleBlock& block) {
   if (!block.hasWeight() || block.first() < measured_) return;
   std::vector<std::size_t> twice;
   for (std::size_t i = 0; i < block.size(); ++i)
-    if ((block.first() + i) % errorStride_ == 0) twice.push_back(i);
+    if (const std::size_t number = block.first() + i;
+        number % errorStride_ == 0 &&
+        shared_->isMine(block.spread != nullptr ? i / gamut::packWidth : number / errorStride_))
+      twice.push_back(i);
   const Motion& motion = system_.motion;
   const Tolerance tight = options_.tolerance.tightened(errorTightening);
   std::mutex mutex;
   std::size_t compared = 0;
+  const std::uint64_t before = Work::counted();
   forEachIndex(options_.jobs, twice.size(), options_.cancelled, [&] {
     return [&, witness = Witness(motion, options_.method, options_.cancelled),
             again = std::vector<double>(error_.data.size())](std::size_t i) mutable {
@@ -547,6 +681,7 @@ void EnsembleRun::measureError(const SampleBlock& block) {
       ++compared;
     };
   });
+  tellErrors(compared, Work::counted() - before);
   if (isCancelled())
     done_ -= compared;
   else
@@ -575,6 +710,18 @@ void EnsembleRun::integrateFirst(std::size_t& next, std::size_t end) {
 }
 
 void EnsembleRun::integrateFirst() {
+  bool isOver = false;
+  do {
+    SharedWork shared(options_.communicator);
+    shared_ = &shared;
+    integrateKept();
+    isOver = shared.isOver();
+    shared_ = nullptr;
+    shared.end();
+  } while (isOver && !isStopped());
+}
+
+void EnsembleRun::integrateKept() {
   const std::size_t samples = sampling_.samples();
   const FirstSamples first = firstSamplesOf(samples, sampling_.centre() + 1 - samples, error_.data.size());
   integrateFirst(nextSample_, first.samples);
@@ -618,12 +765,13 @@ void EnsembleRun::take(SampleBlock& block, const Look& look) {
   if (!block.hasWeight() && !scanRange_.empty()) includeIn(scanRange_, block);
   noteFailures(block);
   if (look) look(block);
-  statistics_->include(block, options_.jobs);
+  const auto [from, to] = timesOf(shared_->rank());
+  statistics_->include(block, options_.jobs, from, to);
   (block.hasWeight() ? counted_ : beside_) += block.size();
 }
 
 void EnsembleRun::takeFirst(const Envelope& expected, const Look& look) {
-  integrateFirst();
+  integrateKept();
   statistics_.emplace(expectedRange(expected), cuts_.size(), sampling_.samples());
   if (scan_.points().size() > 0) scanRange_ = Envelope(system_.motion.times.size(), system_.motion.outputs());
   for (SampleBlock& kept : first_) {
@@ -634,6 +782,20 @@ void EnsembleRun::takeFirst(const Envelope& expected, const Look& look) {
 }
 
 void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
+  bool isOver = false;
+  do {
+    SharedWork shared(options_.communicator);
+    shared.hold([this](Archive& all) { archiveOwnTimes(all); });
+    shared_ = &shared;
+    shared.exchange(toldBegin, {}, {});
+    if (!shared.isOver()) goOn(expected, look);
+    isOver = shared.isOver();
+    shared.end();
+    shared_ = nullptr;
+  } while (isOver && !isStopped());
+}
+
+void EnsembleRun::goOn(const Envelope& expected, const Look& look) {
   if (!hasBegunOthers()) takeFirst(expected, look);
   integrateRest(nextSample_, sampling_.samples(), look);
   integrateRest(nextBeside_, sampling_.centre() + 1, look);
@@ -653,7 +815,9 @@ void EnsembleRun::integrateRest(std::size_t& next, std::size_t end, const Look& 
     next += block.size();
     measureError(block);
     take(block, look);
+    spare_ = block.release();
   }
+  spare_ = {};
 }
 
 /// With what corners and centre say, whatever the number of samples: so the same quantities are found with more.
@@ -674,8 +838,9 @@ void EnsembleRun::integratePoints(const Look& look) {
     nextPoint_ += block.size();
     if (isSwitching(block.first())) measureSwitchingError(block);
     take(block, look);
+    if (isScan) scan_.include(block);
+    spare_ = block.release();
     if (!isScan) continue;
-    scan_.include(block);
     if (nextPoint_ < zone.end || turning_) continue;
     total_ -= mostSamples();
     turning_ = scan_.turning(cuts_);
@@ -683,6 +848,7 @@ void EnsembleRun::integratePoints(const Look& look) {
     total_ += mostSamples();
     if (options_.progress && done_ == total_) options_.progress(1);
   }
+  spare_ = {};
 }
 
 void EnsembleRun::addInsidePoints() {
@@ -764,19 +930,35 @@ void integrateIndependent(const UncertainMotion& system, const EnsembleOptions& 
   sampling.correlate(system.dependence.copulas);
   const std::size_t times = system.motion.times.size(), outputs = system.motion.outputs();
   const std::size_t width = widthOf(system.motion, options.method), most = packsOfBlock(times * outputs) * packWidth;
+  std::optional<SharedWork> shared(std::in_place, options.communicator);
   for (std::size_t first = 0; first < sampling.samples(); first += most) {
     SampleBlock block(first, std::min(most, sampling.samples() - first), true, sampling.quantities(), times, outputs);
     for (std::size_t i = 0; i < block.size(); ++i)
       std::ranges::copy(sampling.values(first + i, system.uncertain), block.values(i).begin());
     const std::vector<Piece> pieces = piecesOf(block.size(), width);
-    forEachIndex(options.jobs, pieces.size(), options.cancelled, [&] {
-      return [&, integrator = PieceIntegrator(system, options, width)](std::size_t piece) mutable {
-        integrator.integrate(block, pieces[piece], [](std::size_t) {});
-      };
-    });
-    if (options.cancelled != nullptr && *options.cancelled) return;
+    std::vector<std::size_t> mine, ended(pieces.size(), 0);
+    const auto integrate = [&](const auto& isMine) {
+      mine.clear();
+      for (std::size_t piece = 0; piece < pieces.size(); ++piece)
+        if (ended[piece] < pieces[piece].count && isMine(piece)) mine.push_back(piece);
+      forEachIndex(options.jobs, mine.size(), options.cancelled, [&] {
+        return [&, integrator = PieceIntegrator(system, options, width)](std::size_t i) mutable {
+          integrator.integrate(block, pieces[mine[i]], [&](std::size_t more) { ended[mine[i]] += more; });
+        };
+      });
+    };
+    const std::uint64_t before = Work::counted();
+    integrate([&](std::size_t piece) { return shared->isMine(piece); });
+    tellPieces(*shared, {block, pieces, mine, ended}, false, Work::counted() - before, [](std::size_t, bool) {});
+    if (shared->isOver()) {  // alone from now on
+      shared->end();
+      shared.emplace(options.communicator);
+      integrate([](std::size_t) { return true; });
+    }
+    if (options.cancelled != nullptr && *options.cancelled) break;
     take(block);
   }
+  shared->end();
 }
 
 SampleBlock integrateValues(const UncertainMotion& system, const EnsembleOptions& options,

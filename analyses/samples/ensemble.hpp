@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analyses/dependence.hpp"
@@ -25,6 +26,8 @@
 namespace gamut {
 
 class Archive;
+class Communicator;
+class SharedWork;
 
 /// Courses of what varies in time that switch from end to end, each a sample of its own: chosen by the number
 /// numberOfSwitching of each quantity that varies.
@@ -77,6 +80,9 @@ struct EnsembleOptions {
   int jobs = 1;                                  ///< threads
   std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what has ended is kept
+  Communicator* communicator = nullptr;          ///< of the ranks that share it out, if any
+  bool spreads = false;  ///< of blocks of the plan's samples each rank then has whole only what it integrated: who
+                         ///< looks at them knows that (SampleBlock::spread)
 };
 
 /// A sample that CVODE could not follow to the horizon.
@@ -181,10 +187,18 @@ class EnsembleRun {
  private:
   std::size_t placeInPack(std::size_t number) const;
   bool isSwitching(std::size_t number) const;
-  SampleBlock nextBlock(std::size_t next, std::size_t end) const;
+  SampleBlock nextBlock(std::size_t next, std::size_t end);
   SampleBlock integrateNext(std::size_t next, std::size_t end);
   std::size_t widthFor(const SampleBlock& block) const;
-  void integratePieces(SampleBlock& block, std::vector<std::size_t>& ended);
+  bool integratePieces(SampleBlock& block, std::vector<std::size_t>& ended);
+  void tellErrors(std::size_t compared, std::uint64_t work);
+  bool isSpread(const SampleBlock& block) const;
+  void spread(SampleBlock& block);
+  std::pair<std::size_t, std::size_t> timesOf(int rank) const;
+  void archiveOwnTimes(Archive& all);
+  void handOverStatistics();
+  void integrateKept();
+  void goOn(const Envelope& expected, const Look& look);
   void integrate(SampleBlock& block, std::vector<std::size_t>& ended);
   void addInsidePoints();
   void archiveSampling(Archive& all);
@@ -199,6 +213,7 @@ class EnsembleRun {
   void take(SampleBlock& block, const Look& look);
   Envelope expectedRange(const Envelope& expected) const;
   bool isCancelled() const;
+  bool isStopped() const { return options_.cancelled != nullptr && *options_.cancelled; }
   void completeOne();
 
   const UncertainMotion& system_;
@@ -227,8 +242,10 @@ class EnsembleRun {
     std::vector<std::size_t> ended;
   };
   std::optional<Current> current_;
+  std::vector<double> spare_;  // memory of the last block
   std::function<bool()> isPauseDue_;
   std::function<void()> pause_;
+  SharedWork* shared_ = nullptr;  // while samples are integrated
 };
 
 /// How large an EnsembleRun is.

@@ -83,15 +83,16 @@ EnsembleStatistics::EnsembleStatistics(const Envelope& expected, std::size_t lev
   }
 }
 
-void EnsembleStatistics::include(const SampleBlock& block, int jobs) {
+void EnsembleStatistics::include(const SampleBlock& block, int jobs, std::size_t from, std::size_t to) {
   std::vector<Convergence*> growth(block.packs(), nullptr);
   first_.reserve(first_.size() + block.packs());
   for (std::size_t p = 0; p < block.packs() && block.hasWeight(); ++p)
     if (const std::size_t count = block.first() + (p + 1) * packWidth;
         (p + 1) * packWidth <= block.size() && std::has_single_bit(count))
       growth[p] = &first_.emplace_back(count, Table(times_, outputs_), Table(times_, outputs_));
-  forEachIndex(jobs, times_, nullptr, [&] {
-    return [&](std::size_t time) {
+  forEachIndex(jobs, to - from, nullptr, [&] {
+    return [&](std::size_t number) {
+      const std::size_t time = from + number;
       for (std::size_t index = time * outputs_; index < (time + 1) * outputs_; ++index)
         for (std::size_t p = 0; p < block.packs(); ++p) {
           const double* row = block.pack(p).data() + index * packWidth;

@@ -55,7 +55,9 @@ class EnsembleStatistics {
                      std::size_t samples = std::numeric_limits<std::size_t>::max());
 
   /// Includes a block. What comes out depends on the blocks and their order alone, not on the number of jobs.
-  void include(const SampleBlock& block, int jobs);
+  void include(const SampleBlock& block, int jobs) { include(block, jobs, 0, times_); }
+  /// What it says of the times from `from` to before `to` alone.
+  void include(const SampleBlock& block, int jobs, std::size_t from, std::size_t to);
 
   // Each of the first `times` output times, NaN for the others.
 
@@ -73,6 +75,8 @@ class EnsembleStatistics {
   /// Forgets all but the shares at these times, which rise. To be called once, when all else has been asked.
   void keepShares(const std::vector<std::size_t>& times);
   void archive(Archive& all);
+  /// What is known of the times from `from` to before `to`, where the same blocks were included.
+  void archiveTimes(Archive& all, std::size_t from, std::size_t to);
 
   /// Bins of each histogram where there are so many: 4096, or fewer, so that all together have some 2^25, but at
   /// least 64.

@@ -78,6 +78,7 @@ class DerivativeAnalysis final : public AnalysisOf<DerivativeAnalysis, Derivativ
     }
     FlowOptions options = flowOptions(run.machine, run.options.jobs, run.watch.stop());
     options.progress = run.progressOf("derivatives");
+    options.communicator = run.options.communicator;
     options.budget = run.study.shares.derivatives * std::max(run.spent.enclosure / Work::perSecond, 1.0);
     try {
       if (!(options.budget > 0)) throw std::invalid_argument("limits.derivatives leaves them nothing");

@@ -164,7 +164,7 @@ void seekAdvice(Run& run, const OutputScales& scales, Enclosure& enclosure, Resu
     run.watch.begin(Watch::Stage::rest);
     if (*run.watch.stop()) return;
     constexpr double part = 0.5;  // of a limit's rest, in which other answers are to come
-    const double rest = part * std::max(0.0, run.limits.time - run.watch.spent()) * Work::perSecond;
+    const double rest = part * std::max(0.0, run.limits.time - agreed(run, run.watch.spent())) * Work::perSecond;
     const double work = std::min(run.study.shares.advice * run.basis(), rest);
     if (const std::optional<DeadPoint> dead = deadPointAhead(run, enclosure)) {
       enclosure.advice = dead->advice();

@@ -21,6 +21,9 @@ struct Spent {
 
 struct Run {
   Run(const Machine& whatMoves, const RunOptions& howToRun, const Limits& itsLimits);
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
 
   Bounds emptyBounds() const { return {study.times.size(), study.outputs.size()}; }
   /// What tells the user how far a task is.
@@ -37,6 +40,9 @@ struct Run {
   Watch watch;
   Spent spent;  ///< by the units, as they end
 };
+
+/// Of ranks the first one's number: what is counted in time differs between them.
+double agreed(const Run& run, double own);
 
 /// From its making to its end, adds the work of this thread and of those that it waits for to `*work`, and the
 /// process's CPU time, s, to `*cpu`; null: to nobody.

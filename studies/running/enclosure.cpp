@@ -247,6 +247,7 @@ class Encloser {
 FlowOptions enclosureOptions(const Run& run, const OutputScales& scales) {
   FlowOptions flow = flowOptions(run.machine, run.options.jobs, run.watch.stop());
   flow.checkpoints = run.options.checkpoints;
+  flow.communicator = run.options.communicator;
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   flow.floors = floorsOf(run.study, scales);
   for (const OutputInfo& output : run.study.outputs)
@@ -280,6 +281,7 @@ FlowOptions tighterOptions(const Run& run, double longestStep, const char* task)
   options.longestStep = std::min(options.longestStep, longestStep);
   options.progress = run.progressOf(task);
   options.checkpoints = run.options.checkpoints;
+  options.communicator = run.options.communicator;
   boundModels(run, options);
   return options;
 }

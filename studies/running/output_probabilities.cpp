@@ -14,6 +14,7 @@
 #include "analyses/probability/quantity_masses.hpp"
 #include "analyses/probability/sobol_estimates.hpp"
 #include "analyses/probability/sobol_indices.hpp"
+#include "analyses/shared_indices.hpp"
 #include "analyses/surrogate/pinching.hpp"
 #include "analyses/surrogate/surrogate_evaluator.hpp"
 #include "analyses/workers.hpp"
@@ -108,8 +109,9 @@ class Probabilities {
   }
 
   OutputDistributionsOptions distributionOptions() const {
-    return {run_.study.distribution.gap, run_.options.jobs, run_.watch.stop(), [this] { return workLeft(); },
-            run_.progressOf("probabilities")};
+    return {
+        run_.study.distribution.gap,      run_.options.jobs,        run_.watch.stop(), [this] { return workLeft(); },
+        run_.progressOf("probabilities"), run_.options.communicator};
   }
 
   double workLeft() const {
@@ -172,24 +174,35 @@ class Probabilities {
     const QuantityMasses masses(surrogate_.get(), uncertain_);
     const double work = std::max(workLeft(), Work::perSecond) /
                         static_cast<double>(rows.size() * std::max<std::size_t>(outputs_.size(), 1));
-    forEachIndex(run_.options.jobs, rows.size() * outputs_.size(), run_.watch.stop(), [&] {
+    std::vector<SobolIndices> found(rows.size() * outputs_.size());
+    const auto bound = [&] {
       return [&](std::size_t i) {
         const std::size_t at = i / outputs_.size(), k = i % outputs_.size();
-        const SobolIndices indices = sobolIndices(surrogate_.get(), *surrogate_.partsAt(rows[at]), k, masses, work);
-        const auto put = [at, output = outputs_[k]](const Interval& bounds, BoundGrids& to, auto... quantity) {
-          if (!isBounded(bounds)) return;
-          to.lower(at, output, quantity...) = bounds.lower();
-          to.upper(at, output, quantity...) = bounds.upper();
-        };
-        put(indices.mean, result.mean);
-        put(indices.deviation, result.deviation);
-        for (std::size_t q = 0; q < quantities_.size(); ++q) {
-          put(indices.first[q], result.first, quantities_[q]);
-          put(indices.total[q], result.total, quantities_[q]);
-        }
+        found[i] = sobolIndices(surrogate_.get(), *surrogate_.partsAt(rows[at]), k, masses, work);
       };
-    });
+    };
+    forEachShared(
+        run_.options.communicator, run_.options.jobs, found.size(), run_.watch.stop(), bound,
+        [&](Archive& one, std::size_t i) { one(found[i].mean, found[i].deviation, found[i].first, found[i].total); });
+    for (std::size_t i = 0; i < found.size(); ++i)
+      putIndices(found[i], i / outputs_.size(), outputs_[i % outputs_.size()]);
     estimateIndices(rows);
+  }
+
+  void putIndices(const SobolIndices& indices, std::size_t at, int output) {
+    if (indices.first.empty()) return;  // there was no time for it
+    SensitivityResult& result = results_.sensitivity;
+    const auto put = [&](const Interval& bounds, BoundGrids& to, auto... quantity) {
+      if (!isBounded(bounds)) return;
+      to.lower(at, output, quantity...) = bounds.lower();
+      to.upper(at, output, quantity...) = bounds.upper();
+    };
+    put(indices.mean, result.mean);
+    put(indices.deviation, result.deviation);
+    for (std::size_t q = 0; q < quantities_.size(); ++q) {
+      put(indices.first[q], result.first, quantities_[q]);
+      put(indices.total[q], result.total, quantities_[q]);
+    }
   }
 
   void pinch(const std::vector<std::size_t>& rows) {

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
+#include "analyses/communicator.hpp"
 #include "analyses/samples/binomial.hpp"
+#include "analyses/workers.hpp"
+#include "scalars/archive.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
 
@@ -105,22 +109,56 @@ void sampleIndependently(const Run& run, const std::vector<std::size_t>& require
   });
 }
 
+/// What a sample says of a requirement.
+struct Judgement {
+  bool hasArrived = false, violates = false;
+  Margin worst{};
+};
+
+/// Of motions that other ranks have.
+void tellJudgements(const SampleBlock& block, std::vector<Judgement>& judgements) {
+  constexpr int judged = 101;
+  const auto archive = [&](Archive& all, int rank) {
+    for (std::size_t pack = rank; pack < block.packs(); pack += block.spread->count()) {
+      const std::size_t first = pack * packWidth, count = std::min<std::size_t>(packWidth, block.size() - first);
+      all.bytes(std::span(judgements).subspan(first, count));
+    }
+  };
+  block.spread->exchange(
+      judged, [&](Archive& all) { archive(all, block.spread->rank()); },
+      [&](int rank, Archive& all) { archive(all, rank); });
+}
+
+std::vector<Judgement> judgementsOf(const Run& run, const SampleBlock& block, const Requirement& requirement) {
+  const std::size_t from = rowOf(run.study.times, requirement.demand.from),
+                    until = rowOf(run.study.times, requirement.demand.until);
+  std::vector<Judgement> all(block.size());
+  forEachIndex(run.options.jobs, block.packs(), nullptr, [&] {
+    return [&](std::size_t pack) {
+      for (std::size_t i = pack * packWidth; block.isHere(pack) && i < std::min(block.size(), (pack + 1) * packWidth);
+           ++i)
+        if (!std::isnan(block(i, until, requirement.firstMargin)))
+          all[i] = {true, !isMetThroughout(block, i, from, until, requirement),
+                    worstOf(block, i, from, until, requirement)};
+    };
+  });
+  if (block.spread != nullptr) tellJudgements(block, all);
+  return all;
+}
+
 }  // namespace
 
-void noteRequirements(const Study& study, const SampleBlock& block, SampledMotion& samples, Results& results) {
-  for (std::size_t r = 0; r < study.requirements.size(); ++r) {
-    const Requirement& requirement = study.requirements[r];
+void noteRequirements(const Run& run, const SampleBlock& block, SampledMotion& samples, Results& results) {
+  for (std::size_t r = 0; r < run.study.requirements.size(); ++r) {
     RequirementResult& result = results.requirements[r];
-    const std::size_t from = rowOf(study.times, requirement.demand.from),
-                      until = rowOf(study.times, requirement.demand.until);
+    const std::vector<Judgement> all = judgementsOf(run, block, run.study.requirements[r]);
     for (std::size_t i = 0; i < block.size(); ++i) {
-      if (std::isnan(block(i, until, requirement.firstMargin))) continue;  // it did not arrive
-      const bool violates = !isMetThroughout(block, i, from, until, requirement);
+      const auto& [hasArrived, violates, worst] = all[i];
+      if (!hasArrived) continue;
       if (block.hasWeight()) {
         ++result.samples;
         if (violates) ++result.violating;
       }
-      const Margin worst = worstOf(block, i, from, until, requirement);
       if (std::isnan(worst.value)) continue;
       if (block.hasWeight() && samples.worstMargins[r].count() < mostFitted)
         samples.worstMargins[r].include(block.values(i), worst.value);
@@ -131,7 +169,7 @@ void noteRequirements(const Study& study, const SampleBlock& block, SampledMotio
       if (!isWorst) continue;
       result.worstSample = sample;
       result.worstMargin = worst.value;
-      result.worstTime = study.times[worst.row];
+      result.worstTime = run.study.times[worst.row];
     }
   }
 }

@@ -6,12 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "analyses/communicator.hpp"
 #include "analyses/consistency.hpp"
 #include "mechanics/assembly.hpp"
+#include "scalars/archive.hpp"
 #include "studies/assumed_rows.hpp"
+#include "studies/checkpoint_file.hpp"
+#include "studies/named_texts.hpp"
 #include "studies/printable.hpp"
 #include "studies/running/run_memory.hpp"
 #include "studies/running/units.hpp"
@@ -61,12 +66,14 @@ std::string assemblyText(const Study& study) {
   const Mechanism& mechanism = study.mechanism;
   if (!mechanism.isClosed() || study.analysis == Study::Analysis::equilibria) return {};
   const Assembly<double> assembly(mechanism);
+  const std::vector<std::string> known = mechanism.outputQuantities();
   std::vector<std::string> texts;
   for (const Mechanism::Closed& loop : mechanism.loops()) {
     std::vector<std::string> places;
     for (const std::string& name : loop.by)
-      places.push_back(
-          fmt::format("{} = {}", name, inUnit(numberText(assembly.output(name), 6), mechanism.unitOf(name))));
+      if (std::ranges::find(known, name) != known.end())
+        places.push_back(
+            fmt::format("{} = {}", name, inUnit(numberText(assembly.output(name), 6), mechanism.unitOf(name))));
     texts.push_back(fmt::format("{}: {}", loop.element, fmt::join(places, ", ")));
   }
   return fmt::format("{}", fmt::join(texts, "; "));
@@ -128,12 +135,84 @@ Run::Run(const Machine& whatMoves, const RunOptions& howToRun, const Limits& its
       study(machine.study),
       options(howToRun),
       limits(itsLimits),
-      watch(limits, options.cancelled, {options.overdue}, machine.cpu) {}
+      watch(limits, options.cancelled, {options.overdue}, machine.cpu) {
+  if (options.communicator == nullptr) return;
+  options.communicator->heed(
+      watch.everStopped(), [this](const std::string& told) { watch.hear(told); }, [this] { return watch.tell(); });
+}
+
+Run::~Run() {
+  if (options.communicator != nullptr) options.communicator->heed(nullptr, {}, {});
+}
+
+double agreed(const Run& run, double own) {
+  return run.options.communicator != nullptr ? run.options.communicator->agreed(own) : own;
+}
 
 std::function<void(double)> Run::progressOf(const std::string& task) const {
   if (!options.progress) return {};
   return [this, task](double fraction) { options.progress(task, fraction); };
 }
+
+namespace {
+
+/// With it a run ends, on all ranks.
+struct LastOfRanks {
+  Communicator* communicator;
+  ~LastOfRanks() {
+    if (communicator != nullptr) communicator->end();
+  }
+};
+
+/// Each rank's numbers are the same to the last bit where their programs, processors and machines are. Throws
+/// std::invalid_argument on all of them otherwise.
+void checkRanks(const Machine& machine, const RunOptions& options) {
+  if (options.communicator == nullptr) return;
+  const Study& study = machine.study;
+  std::string own =
+      fmt::format("{}\n{}\n{}\n{}\n{}", builtBy(), processor(), study.text, study.robot, inOneText(study.tables));
+  for (const Interval& component : machine.box) own += fmt::format(" {} {}", component.lower(), component.upper());
+  int other = -1;
+  SharedWork shared(options.communicator);
+  shared.exchange(
+      0, [&](Archive& all) { all(own); },
+      [&](int rank, Archive& all) {
+        std::string theirs;
+        all(theirs);
+        if (theirs != own && other < 0) other = rank;
+      });
+  shared.end();
+  if (other >= 0)
+    throw std::invalid_argument(
+        fmt::format("rank {} has another program, processor or study than rank {}, so that its numbers might differ in "
+                    "their last digits; expected the same on all ranks",
+                    other, shared.rank()));
+}
+
+/// CPU time is that of all ranks, memory that of the one which took most.
+void addCostsOfRanks(Communicator* communicator, Results& results) {
+  double cpu = results.cpu, memory = results.memory;
+  SharedWork shared(communicator);
+  shared.exchange(
+      0, [&](Archive& all) { all(cpu, memory); },
+      [&](int, Archive& all) {
+        all(cpu, memory);
+        results.cpu += cpu;
+        results.memory = std::max(results.memory, memory);
+      });
+  shared.end();
+}
+
+/// The first rank's: of memory others may have more or less.
+Limits agreedLimits(Limits limits, Communicator* communicator) {
+  if (communicator == nullptr) return limits;
+  for (double* limit :
+       {&limits.time, &limits.memory, &limits.enclosureTime, &limits.enclosureMemory, &limits.sampleTime})
+    *limit = communicator->agreed(*limit);
+  return limits;
+}
+
+}  // namespace
 
 Limits limitsOf(const Study& study, const RunOptions& options) {
   StatedLimits limits = study.limits;
@@ -162,7 +241,9 @@ double memoryNeeded(const Study& study, const RunOptions& options) {
 }
 
 Results run(const Machine& machine, const RunOptions& options) {
-  Run run(machine, options, limitsOf(machine.study, options));
+  const LastOfRanks last{options.communicator};
+  checkRanks(machine, options);
+  Run run(machine, options, agreedLimits(limitsOf(machine.study, options), options.communicator));
   Results results = withOrigin(run);
   SampledMotion samples(machine);
   ModelMasses masses = massesOf(machine);
@@ -199,6 +280,7 @@ Results run(const Machine& machine, const RunOptions& options) {
   if (isWhole && !failure.empty()) noteStop(run, failure, results);
   results.cpu = run.watch.spent();
   results.memory = peakMemory();
+  addCostsOfRanks(options.communicator, results);
   return results;
 }
 

@@ -14,6 +14,7 @@
 namespace gamut {
 
 class Checkpoints;
+class Communicator;
 
 /// What belongs to a run, not to the study.
 struct RunOptions {
@@ -28,6 +29,7 @@ struct RunOptions {
   std::function<void(const std::string& why)> overdue;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was computed is kept
   Checkpoints* checkpoints = nullptr;            ///< what it remembers of itself, made by the thread that runs it
+  Communicator* communicator = nullptr;          ///< of the ranks that run it, likewise; limits are of each of them
 };
 
 /// The study's limits, or those of the options.
@@ -37,7 +39,9 @@ Limits limitsOf(const Study& study, const RunOptions& options);
 double memoryNeeded(const Study& study, const RunOptions& options);
 
 /// Everything that the study asks for. An analysis that ends early says why in its part of the results; no verdict is
-/// given (ComparisonResult::present is false) unless samples and either enclosures or alpha-cuts were asked for.
+/// given (ComparisonResult::present is false) unless samples and either enclosures or alpha-cuts were asked for. Of
+/// ranks the first has the results, however many there are the same to the last bit but for costs; others may be told
+/// of no part in them (Communicator::Parted).
 Results run(const Machine& machine, const RunOptions& options = {});
 inline Results run(const Study& study, const RunOptions& options = {}) { return run(Machine(study), options); }
 

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "analyses/communicator.hpp"
 #include "analyses/flow/archive.hpp"
 #include "analyses/samples/archive.hpp"
 #include "scalars/archive.hpp"
@@ -84,6 +85,28 @@ RunMemory::RunMemory(Run& run, SampledMotion& samples, Enclosure& enclosure, Mod
 
 RunMemory::~RunMemory() {
   if (run_.options.checkpoints != nullptr) run_.options.checkpoints->heed(nullptr);
+}
+
+void RunMemory::operator()(const std::function<void()>& unit) {
+  Communicator* others = run_.options.communicator;
+  if (others != nullptr && others->isFirst() && others->areParted() && !run_.watch.isToEnd()) {
+    done_ = next_;
+    others->callBack([this](Archive& all) { archiveAll(all); });
+    run_.watch.forgetStops();
+  }
+  if (next_++ < done_) return;
+  try {
+    unit();
+  } catch (const Communicator::Parted&) {
+    const auto become = [this](Archive& all) {
+      samples_.ensemble.reset();
+      archiveAll(all);
+    };
+    if (!others->wait(become)) throw;
+    run_.watch.forgetStops();
+    return;
+  }
+  note();
 }
 
 void RunMemory::note() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "analyses/checkpoints.hpp"
@@ -29,13 +30,9 @@ class RunMemory {
   RunMemory(const RunMemory&) = delete;
   RunMemory& operator=(const RunMemory&) = delete;
 
-  /// Does the next unit, unless it had been done, and remembers that if it took long enough.
-  template <class Unit>
-  void operator()(const Unit& unit) {
-    if (next_++ < done_) return;
-    unit();
-    note();
-  }
+  /// Does the next unit, unless it had been done, and remembers that if it took long enough. A rank that had to part in
+  /// a unit is called back behind it, unless the first is to stop then.
+  void operator()(const std::function<void()>& unit);
 
  private:
   void note();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace gamut {
 namespace {
@@ -50,11 +51,15 @@ SampleKeeper::SampleKeeper(std::size_t samples, std::size_t quantities, std::siz
   samples_.motions.reserve(rowsAt(samples, samples_.motionsEvery) * cells);
 }
 
-void SampleKeeper::keep(const SampleBlock& block) {
+void SampleKeeper::keep(SampleBlock& block) {
   KeptSamples& kept = block.hasWeight() ? samples_ : beside_;
+  std::vector<std::size_t> fetched;
   const auto isKept = [&](std::size_t number, std::int64_t every) {
     return every > 0 && (number == centre_ || number % static_cast<std::size_t>(every) == 0);
   };
+  for (std::size_t i = 0; i < block.size(); ++i)
+    if (isKept(block.first() + i, samples_.motionsEvery) && block.isHere(i / packWidth)) fetched.push_back(i);
+  block.fetch(fetched);
   for (std::size_t i = 0; i < block.size(); ++i) {
     const std::size_t number = block.first() + i;
     if (isKept(number, samples_.valuesEvery)) {

@@ -19,7 +19,7 @@ class SampleKeeper {
 
   /// Keeps what is to be kept of a block. Blocks may come in any order in which the numbers of samples with weight
   /// rise, and those of samples without.
-  void keep(const SampleBlock& block);
+  void keep(SampleBlock& block);
 
   /// All that was kept, by rising number.
   KeptSamples take();

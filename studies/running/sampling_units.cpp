@@ -196,6 +196,8 @@ EnsembleOptions ensembleOptions(const Run& run, const Results& results) {
   options.secondsPerSample = run.limits.sampleTime;
   options.progress = run.progressOf("samples");
   options.cancelled = run.watch.stop();
+  options.communicator = run.options.communicator;
+  options.spreads = run.moves();
   return options;
 }
 
@@ -262,7 +264,7 @@ void takeOtherSamples(Run& run, const Enclosure& enclosure, SampledMotion& sampl
         takeDisputes(run.watch, found, level, results.comparison);
       });
       if (samples.former) samples.former->meet(block, results.comparison.disputed);
-      noteRequirements(study, block, samples, results);
+      noteRequirements(run, block, samples, results);
       if (influence) influence->include(block);
       if (block.first() <= last) keeper.keep(block);
     });

@@ -148,7 +148,7 @@ std::vector<std::size_t> distributionRows(const Study& study);
 bool asksForDistributions(const Study& study);
 
 /// Counts a block of samples that are settled.
-void noteRequirements(const Study& study, const SampleBlock& block, SampledMotion& samples, Results& results);
+void noteRequirements(const Run& run, const SampleBlock& block, SampledMotion& samples, Results& results);
 /// Takes what a comparison with an alpha-cut found, or, level -1, with the enclosure.
 void takeDisputes(const Watch& watch, const Comparison& found, int level, ComparisonResult& comparison);
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "studies/results/results_file.hpp"
+#include "tests/commands/long_study.hpp"
 #include "tests/commands/program.hpp"
 #include "tests/commands/started_program.hpp"
-#include "tests/studies/sample_study.hpp"
 
 namespace gamut::resume_test {
 namespace {
@@ -20,33 +20,6 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using Words = std::vector<std::string>;
-
-/// Of some turns, samples in several blocks, corners and points of cuts, and a requirement that is left to cells.
-std::string longStudy() {
-  std::string text = sampleStudyWith("horizon = 0.5\noutput_step = 0.1", "horizon = 2.5\noutput_step = 0.02");
-  const auto replace = [&](const std::string& old, const std::string& by) {
-    text.replace(text.find(old), old.size(), by);
-  };
-  replace("± 1 %", "± 60 %");
-  replace("samples = 16", "samples = 4000\nstorage = \"0.1 MB\"");
-  return text + R"([[requirement]]
-name = "low enough"
-always = "angle < 40 deg"
-[fuzzy]
-levels = 3
-)";
-}
-
-/// Where two results differ, but for what a run costs, and when, where and from which file it was made.
-std::vector<std::string> differencesOf(const Results& one, const Results& other) {
-  std::vector<std::string> all = differences(one, other);
-  std::erase_if(all, [](const std::string& path) {
-    const std::string name = path.substr(path.rfind('/') + 1);
-    return name == "cpu" || name == "cut_cpu" || name == "memory" || name == "date" || name == "host" ||
-           path.starts_with("/study/cost");
-  });
-  return all;
-}
 
 class Resume : public FromOutside {
  protected:
@@ -81,7 +54,7 @@ class Resume : public FromOutside {
   }
 
   void expectTheSame() const {
-    EXPECT_THAT(differencesOf(readResults(folder_.path("s.h5")), whole_), IsEmpty());
+    EXPECT_THAT(differencesButCosts(readResults(folder_.path("s.h5")), whole_), IsEmpty());
     EXPECT_TRUE(isThere("s.html"));
     EXPECT_FALSE(isThere("s.h5.checkpoint"));
   }

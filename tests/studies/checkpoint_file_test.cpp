@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "scalars/archive.hpp"
@@ -196,15 +197,45 @@ TEST_F(CheckpointFileTest, SaysWhatItCannotGoOnWith) {
     text.replace(text.find(old), old.size(), replacement);
     folder_.write("s.h5.checkpoint", text);
   };
-  with("build ", "BUILD ");
+  const std::size_t build = whole.find("build ") + 6, digits = 16, processor = build + digits + 1,
+                    end = whole.find('\n', processor);
+  with(whole.substr(build, digits), std::string(digits, '0'));
   refuses("numbers might differ in their last digits; expected the same program, or run the study again");
   with("format 1", "format 2");
-  refuses("expected the same program");
-  const std::size_t end = whole.find('\n', whole.find("build ")) + 1;
-  folder_.write("s.h5.checkpoint", whole.substr(0, end) + "abacus" + whole.substr(whole.find('\n', end)));
-  refuses("was written on a processor with abacus, and this one has ");
-  folder_.write("s.h5.checkpoint", whole.substr(0, whole.find('\n', end) + 20));
-  refuses("remembers nothing yet; run the study again");
+  refuses("is of another format; expected Gamut checkpoint, format 1");
+  const std::string other = whole.substr(processor, end - processor) == "AVX2" ? "baseline" : "AVX2";
+  folder_.write("s.h5.checkpoint", whole.substr(0, processor) + other + whole.substr(end));
+  refuses("was written on a processor with " + other + ", and this one has ");
+  folder_.write("s.h5.checkpoint", whole.substr(0, end + 20));
+  refuses("holds nothing that is whole");
+}
+
+/// Wherever its heading or its plan is cut off or changed, by one readable line.
+TEST_F(CheckpointFileTest, IsRefusedWhereItsBeginningIsDamaged) {
+  record(*begun(), {1});
+  const std::string whole = folder_.read("s.h5.checkpoint");
+  const auto complaint = [&](const std::string& bytes) -> std::string {
+    folder_.write("s.h5.checkpoint", bytes);
+    try {
+      opened();
+    } catch (const CheckpointError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  std::size_t end = 0;  // of heading and plan
+  for (std::string said; end < whole.size() && !(said = complaint(whole.substr(0, end))).empty(); ++end) {
+    EXPECT_THAT(said, HasSubstr("s.h5.checkpoint: ")) << end;
+    std::string bytes = whole;
+    bytes[end] = static_cast<char>(bytes[end] ^ "\x01\x20\x80"[end % 3]);
+    said = complaint(bytes);
+    EXPECT_THAT(said, HasSubstr("s.h5.checkpoint: ")) << end;
+    EXPECT_TRUE(std::ranges::all_of(said, [](unsigned char c) { return c >= ' ' && c < 0x7f; })) << end;
+  }
+  EXPECT_GT(end, 150);
+  EXPECT_LT(end, whole.size());
+  folder_.write("s.h5.checkpoint", whole);
+  EXPECT_EQ(recalled(*opened()), Numbers{1});
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Flows that are killed at any turn and go on: the same tube bit for bit as of one that was not, and the same work.
+// Flows that are killed at any turn and go on, and those that ranks share out: the same tube bit for bit as of one that
+// was not, and the same work.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "analyses/flow/flow.hpp"
 #include "analyses/work.hpp"
 #include "tests/analyses/killed_run.hpp"
+#include "tests/analyses/rank_threads.hpp"
 
 namespace gamut::testing::resumed_flow_test {
 namespace {
@@ -34,6 +36,23 @@ std::vector<double> timesTo(double horizon, int count) {
   return times;
 }
 
+/// Snapshots that chords share they may have as copies, with outputs behind those that count.
+void archiveModels(Archive& all, const FlowModels& models) {
+  const auto put = [&](auto value) { all(value); };
+  const auto putSnapshot = [&](const FlowSnapshot& snapshot, std::size_t outputs) {
+    put(snapshot.time), put(snapshot.part), put(snapshot.path), put(snapshot.monomials->degree());
+    for (std::size_t o = 0; o < outputs; ++o) put(snapshot.outputs.at(o));
+  };
+  put(models.components), put(models.symbols), put(models.modelled), put(models.areAlternatives);
+  for (const auto& row : models.at)
+    for (const auto& snapshot : row) putSnapshot(*snapshot, snapshot->outputs.size());
+  for (const auto& row : models.over)
+    for (const FlowChord& chord : row) {
+      put(chord.part), put(chord.sag), put(chord.bound);
+      for (const auto& end : {chord.before, chord.behind}) putSnapshot(*end, chord.sag.size());
+    }
+}
+
 /// All that it says but CPU time.
 std::string bitsOf(const Tube& tube) {
   return bytesOf([&](Archive& all) {
@@ -57,7 +76,7 @@ std::string bitsOf(const Tube& tube) {
       put(tube.outputsOver(i));
       put(tube.asides(i));
     }
-    put(tube.models());
+    if (tube.models()) archiveModels(all, *tube.models());
   });
 }
 
@@ -71,9 +90,10 @@ std::string cutsOf(const Question& question, const Tube& tube) {
   });
 }
 
-Answer answer(const Question& question, int jobs, Memory* memory) {
+Answer answer(const Question& question, int jobs, Memory* memory, Communicator* communicator = nullptr) {
   FlowOptions options = question.options;
   options.jobs = jobs;
+  options.communicator = communicator;
   options.checkpoints = memory;
   const std::uint64_t before = Work::counted();
   const Tube tube =
@@ -81,9 +101,26 @@ Answer answer(const Question& question, int jobs, Memory* memory) {
   return {bitsOf(tube) + cutsOf(question, tube), Work::counted() - before, tube.pieces()};
 }
 
+/// On some ranks, each of which comes to all of it.
+void expectTheSameOnRanks(const Question& question, const Answer& whole) {
+  for (const int ranks : {2, 3}) {
+    SCOPED_TRACE(std::to_string(ranks) + " ranks");
+    std::vector<Answer> answers(ranks);
+    onRanks(ranks, [&](Communicator& communicator) {
+      answers[communicator.rank()] = answer(question, 1 + communicator.rank() % 2, nullptr, &communicator);
+    });
+    for (const Answer& one : answers) {
+      EXPECT_TRUE(one.bits == whole.bits);
+      EXPECT_EQ(one.work, whole.work);
+      EXPECT_EQ(one.pieces, whole.pieces);
+    }
+  }
+}
+
 /// Killed after each of some numbers of records, then resumed; and killed again and again, until it comes to its end.
 void expectTheSame(const Question& question, int parts = 4) {
   const Answer whole = answer(question, 1, nullptr);
+  expectTheSameOnRanks(question, whole);
   Memory undisturbed;
   EXPECT_TRUE(answer(question, 2, &undisturbed).bits == whole.bits);
   ASSERT_GT(undisturbed.count, 5);
@@ -160,6 +197,8 @@ TEST(ResumedFlow, IsTheSameWithModelsLevelsExtremesAndValuesBesides) {
   q.options.aside = {q.g, {1.5, 3}};
   expectTheSame(q);
   q.options.thinAtBytes = 3000;
+  expectTheSame(q);
+  q.options.modelBytes = 20000;  // given up on the way, between turns
   expectTheSame(q);
 }
 

@@ -1,4 +1,4 @@
-// Ensembles that are killed at any moment and go on: the same statistics bit for bit.
+// Ensembles that are killed at any moment and go on, and those that ranks share out: the same statistics bit for bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include "analyses/samples/ensemble.hpp"
 #include "tests/analyses/killed_run.hpp"
 #include "tests/analyses/motions.hpp"
+#include "tests/analyses/rank_threads.hpp"
 
 namespace gamut::resumed_ensemble_test {
 namespace {
@@ -24,9 +25,11 @@ struct Question {
 };
 
 /// All of the run once it has ended, and the number of each sample that was looked at, in turn.
-std::string bitsOf(const Question& question, int jobs, Memory* memory) {
+std::string bitsOf(const Question& question, int jobs, Memory* memory, Communicator* communicator = nullptr) {
   EnsembleOptions options = question.options;
   options.jobs = jobs;
+  options.communicator = communicator;
+  options.spreads = communicator != nullptr && communicator->count() > 2;
   EnsembleRun run(question.system, options);
   std::vector<std::size_t> seen;
   const auto state = [&](Archive& all) { all(run, seen); };
@@ -50,6 +53,11 @@ std::string bitsOf(const Question& question, int jobs, Memory* memory) {
 
 void expectTheSame(const Question& question, int parts = 5) {
   const std::string whole = bitsOf(question, 1, nullptr);
+  for (const int ranks : {2, 3, 5})
+    testing::onRanks(ranks, [&](Communicator& communicator) {
+      EXPECT_TRUE(bitsOf(question, 1 + communicator.rank() % 2, nullptr, &communicator) == whole)
+          << communicator.rank() << " of " << ranks;
+    });
   Memory undisturbed;
   EXPECT_TRUE(bitsOf(question, 1, &undisturbed) == whole);
   ASSERT_GT(undisturbed.count, 3);

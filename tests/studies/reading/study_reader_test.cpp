@@ -1259,10 +1259,10 @@ constexpr BadStudy badStudies[] = {
     {"quantity = \"tip.position.z\"", "name = \"tip\"",
      "s.toml:37:1: 'output.quantity' is missing; expected what is wanted, such as \"tip.position.z\" or \"energy\""},
     {"samples = 16", "samples = 0",
-     "s.toml:40:11: stochastic.samples is 0; expected a whole number between 1 and 10000000"},
+     "s.toml:40:11: stochastic.samples is 0; expected a whole number between 1 and 1000000000"},
     {"samples = 16", "samples = 1.5",
      "s.toml:40:11: stochastic.samples is the number 1.5 with point or exponent; expected a whole number between 1 and "
-     "10000000"},
+     "1000000000"},
     {"plan = \"sobol\"", "plan = \"sobel\"",
      "s.toml:41:8: stochastic.plan is \"sobel\"; expected 'sobol'? (one of: sobol, random, latin-hypercube, halton, "
      "grid)"},

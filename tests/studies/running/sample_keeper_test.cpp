@@ -23,13 +23,15 @@ SampleBlock blockOf(std::size_t first, std::size_t count, bool hasWeight, std::s
   return block;
 }
 
+void keepOf(SampleKeeper& keeper, SampleBlock block) { keeper.keep(block); }
+
 /// As samples go by: the first block, corners and centre, then the others.
 KeptSamples keptOf(std::size_t samples, std::size_t beside, std::size_t quantities, std::size_t cells, double storage) {
   SampleKeeper keeper(samples + beside, quantities, cells, storage);
   const std::size_t first = std::min<std::size_t>(samples, 7);
-  keeper.keep(blockOf(0, first, true, quantities, cells));
-  keeper.keep(blockOf(samples, beside, false, quantities, cells));
-  if (first < samples) keeper.keep(blockOf(first, samples - first, true, quantities, cells));
+  keepOf(keeper, blockOf(0, first, true, quantities, cells));
+  keepOf(keeper, blockOf(samples, beside, false, quantities, cells));
+  if (first < samples) keepOf(keeper, blockOf(first, samples - first, true, quantities, cells));
   return keeper.take();
 }
 
@@ -94,7 +96,7 @@ TEST(SampleKeeper, KeepsNothingWithoutStorage) {
 
 TEST(SampleKeeper, KeepsOfAnInterruptedRunWhatWentBy) {
   SampleKeeper keeper(103, 1, 1, 1e6);
-  keeper.keep(blockOf(0, 5, true, 1, 1));
+  keepOf(keeper, blockOf(0, 5, true, 1, 1));
   EXPECT_THAT(keeper.take().number, ElementsAre(0, 1, 2, 3, 4));
 }
 

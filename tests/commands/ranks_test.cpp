@@ -1,0 +1,105 @@
+// Runs that are shared out among processes by MPI: the same results bit for bit, on as many as there are.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "studies/results/results_file.hpp"
+#include "tests/commands/long_study.hpp"
+#include "tests/commands/program.hpp"
+
+namespace gamut::ranks_test {
+namespace {
+
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class RanksOfProgram : public FromOutside {
+ protected:
+  void SetUp() override {
+    if (std::system("command -v mpirun > /dev/null") != 0) GTEST_SKIP() << "there is no mpirun";
+    folder_.write("s.toml", longStudy());
+  }
+
+  /// On so many processes, more than the machine has if need be, each with one thread.
+  Outcome onRanks(int ranks, const std::string& arguments, const std::string& before = "") const {
+    return gamut(
+        arguments + " --jobs 1",
+        before + fmt::format("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe "
+                             "-n {} ",
+                             ranks));
+  }
+
+  Results results(const std::string& name) const { return readResults(folder_.path(name)); }
+};
+
+TEST_F(RanksOfProgram, ComeToTheSame) {
+  const Outcome alone = gamut("run s.toml --quiet -o alone.h5");
+  for (const int ranks : {1, 2, 3}) {
+    SCOPED_TRACE(ranks);
+    const Outcome shared = onRanks(ranks, "run s.toml --force -o s.h5");
+    EXPECT_EQ(shared.exitCode, alone.exitCode) << shared.error;
+    EXPECT_THAT(differencesButCosts(results("s.h5"), results("alone.h5")), IsEmpty());
+    EXPECT_NE(shared.out.find("CPU: "), std::string::npos);
+    EXPECT_EQ(shared.out.find("CPU: "), shared.out.rfind("CPU: "));  // one of them says it
+    EXPECT_TRUE(std::filesystem::exists(folder_.path("s.html")));
+  }
+}
+
+TEST_F(RanksOfProgram, ComplainOnce) {
+  folder_.write("bad.toml", "title = 1\n");
+  const Outcome bad = onRanks(3, "run bad.toml");
+  EXPECT_EQ(bad.exitCode, 2);
+  EXPECT_THAT(bad.error, HasSubstr("bad.toml:1"));
+  EXPECT_EQ(bad.error.find("bad.toml:1"), bad.error.rfind("bad.toml:1"));
+  folder_.write("s.h5", "");
+  EXPECT_THAT(onRanks(2, "run s.toml").error, HasSubstr("s.h5: exists"));
+  EXPECT_THAT(onRanks(2, "run -", "echo | ").error, HasSubstr("several processes cannot read a study from standard"));
+}
+
+/// Whichever dies, the job ends; what was remembered until then is enough to go on, with as many as one likes.
+TEST_F(RanksOfProgram, GoOnWhereOneWasKilled) {
+  const Outcome alone = gamut("run s.toml --quiet -o alone.h5");
+  const std::string name = folder_.path("s.h5"), checkpoint = name + ".checkpoint";
+  int resumed = 0;
+  for (int i = 0; i < 4; ++i) {
+    for (const char* kind : {"", ".checkpoint"}) std::filesystem::remove(name + kind);
+    std::filesystem::remove(folder_.path("s.html"));
+    const std::string kill = fmt::format(
+        "(until [ -s '{0}' ]; do sleep 0.01; [ ! -s '{1}' ] || exit; done; "
+        "pkill -KILL -{2} -f -- '^{3} run .*-o {1}') & ",
+        checkpoint, name, i % 2 == 0 ? "n" : "o", GAMUT_PROGRAM);
+    const Outcome killed = onRanks(3, fmt::format("run s.toml --quiet --checkpoint 0.02 -o {}", name), kill);
+    if (!std::filesystem::exists(checkpoint)) continue;
+    EXPECT_NE(killed.exitCode, 0);
+    const Outcome end = i < 2 ? onRanks(2, "resume s.h5 --quiet --force") : gamut("resume s.h5 --quiet --force");
+    EXPECT_EQ(end.exitCode, alone.exitCode) << end.error;
+    EXPECT_THAT(differencesButCosts(results("s.h5"), results("alone.h5")), IsEmpty());
+    ++resumed;
+  }
+  EXPECT_GE(resumed, 1);
+}
+
+/// A limit of time, which each notes for itself.
+TEST_F(RanksOfProgram, KeepWhatWasFoundUntilALimit) {
+  const Outcome ended = onRanks(3, "run s.toml --quiet --time-limit 0.3");
+  EXPECT_EQ(ended.exitCode, 3) << ended.error;
+  EXPECT_THAT(results("s.h5").stopped, HasSubstr("the time limit of 0.3 s CPU"));
+}
+
+TEST_F(RanksOfProgram, DoOneThingAlone) {
+  gamut("run s.toml --quiet");
+  const Outcome alone = gamut("info s.h5");
+  EXPECT_THAT(alone.out, Not(IsEmpty()));
+  const Outcome three =
+      gamut("info s.h5", "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 3 ");
+  EXPECT_EQ(three.out, alone.out);
+}
+
+}  // namespace
+}  // namespace gamut::ranks_test
