@@ -20,15 +20,15 @@ struct Section {
   std::string (*html)(const Report& report);
 };
 
-constexpr Section sections[] = {{"What was asked", "asked", askedSection},
+constexpr Section sections[] = {{"Outputs", "outputs", outputsSection},
                                 {"The machine", "moving", machineSection},
+                                {"What was asked", "asked", askedSection},
                                 {"Workspace", "workspaces", workspaceSection},
                                 {"Modes", "modes", modesSection},
-                                {"Figures", "numbers", figuresSection},
-                                {"Outputs", "outputs", outputsSection},
                                 {"Membership", "memberships", membershipSection},
                                 {"Probabilities", "probabilities", probabilitySection},
                                 {"Sensitivity", "sensitivities", sensitivitySection},
+                                {"Figures", "numbers", figuresSection},
                                 {"Samples", "samples", samplesSection},
                                 {"Provenance", "origin", provenanceSection}};
 
@@ -56,9 +56,10 @@ std::string scriptsOf(const Report& report) {
   if (const std::string& data = report.outputs.data; !data.empty())
     scripts += fmt::format("<script type=\"application/json\" id=\"times\">{}</script>\n<!--\n{}\n-->\n", data,
                            page::plottingLicence) +
-               scriptElement(page::plottingScript) + scriptElement(page::axesScript) + scriptElement(page::pageScript);
+               scriptElement(page::plottingScript) + scriptElement(page::axesScript) +
+               scriptElement(page::besideScript) + scriptElement(page::pageScript);
   if (report.results.picture.present) scripts += scriptElement(page::sceneScript) + scriptElement(page::machineScript);
-  return scripts + scriptElement(page::clockScript);
+  return scripts + scriptElement(page::listScript) + scriptElement(page::clockScript);
 }
 
 /// With so much detail.

@@ -9,24 +9,16 @@
 #include "reports/words.hpp"
 
 namespace gamut {
-namespace {
-
-struct Cut {
-  double alpha, lower, upper;
-};
-
-std::vector<Cut> cutsOf(const std::vector<double>& alpha, const std::vector<Bounds>& bounds, std::size_t time,
+std::vector<Cut> cutsOf(const std::vector<double>& alpha, const std::vector<Envelope>& bounds, std::size_t time,
                         std::size_t output) {
   std::vector<Cut> cuts;
   for (std::size_t level = 0; level < bounds.size() && level < alpha.size(); ++level) {
-    if (bounds[level].empty()) continue;
+    if (bounds[level].empty() || time >= bounds[level].lower.times) continue;
     const Cut cut{alpha[level], bounds[level].lower(time, output), bounds[level].upper(time, output)};
     if (std::isfinite(cut.lower) && std::isfinite(cut.upper) && cut.lower <= cut.upper) cuts.push_back(cut);
   }
   return cuts;
 }
-
-}  // namespace
 
 std::string drawMembership(const Results& results, std::size_t time, std::size_t output, const std::string& label) {
   const FuzzyResult& fuzzy = results.fuzzy;

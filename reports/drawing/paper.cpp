@@ -30,25 +30,78 @@ class TimeChart {
 
   std::string svg(const std::string& axisName, const std::string& label) {
     svg_ = openedDrawing(frame_.height, label, frame_.width);
-    drawHorizontalAxis(frame_, "time (s)", frame_.width < paperWidth ? 5 : 8, svg_);
-    drawVerticalAxis(frame_, axisName, 5, svg_);
-    for (const Layer& layer : layers_)
-      for (const std::size_t i : layer.shown()) {
-        const Band& band = layer.bands[i];
-        if (layer.kind == Layer::Kind::whisker) {
-          drawWhiskers(band, layer);
-        } else if (layer.style.fill > 0 && layer.kind != Layer::Kind::line) {
-          drawBand(band, layer);
-        } else {
-          drawLine(band.lower, layer);
-          drawLine(band.upper, layer);
-        }
-        if (i < layer.labels.size()) drawLabel(layer, i);
-      }
+    draw(axisName);
     return svg_ + "</svg>\n";
   }
 
+  /// On paper that is so wide; behind a gap there is what is known at an instant.
+  std::string svgWith(const BesideMoment& moment, double around, const std::string& axisName, const std::string& label,
+                      double width) {
+    constexpr double gap = 22;
+    const double from = frame_.width - marginRight + gap, until = width - marginRight;
+    svg_ = openedDrawing(frame_.height, label, width);
+    draw(axisName);
+    drawBeside(moment, frame_, from, until, around, svg_);
+    if (around == 0) drawLimitsAcross(from, until);
+    const double now = frame_.across(moment.time);
+    Pen pen;
+    pen.stroke(now, marginTop, now, frame_.height - marginBottom);
+    drawPath("instant", pen, svg_);
+    return svg_ + "</svg>\n";
+  }
+
+  void marked(const std::vector<Span>& missed) { missed_ = &missed; }
+
  private:
+  void draw(const std::string& axisName) {
+    drawHorizontalAxis(frame_, "time (s)", frame_.width < paperWidth ? 5 : 8, svg_);
+    drawVerticalAxis(frame_, axisName, 5, svg_);
+    for (const bool isFilled : {true, false})  // lines are seen on fills
+      for (const Layer& layer : layers_)
+        if ((layer.style.fill > 0 && layer.kind != Layer::Kind::line) == isFilled) drawLayer(layer);
+    if (missed_ != nullptr) drawMissed(*missed_);
+  }
+
+  void drawLayer(const Layer& layer) {
+    for (const std::size_t i : layer.shown()) {
+      const Band& band = layer.bands[i];
+      if (layer.kind == Layer::Kind::whisker) {
+        drawWhiskers(band, layer);
+      } else if (layer.style.fill > 0 && layer.kind != Layer::Kind::line) {
+        drawBand(band, layer);
+      } else {
+        drawLine(band.lower, layer);
+        drawLine(band.upper, layer);
+      }
+      if (i < layer.labels.size()) drawLabel(layer, i);
+    }
+  }
+
+  /// Along the lower end of the drawing, wide enough to be seen.
+  void drawMissed(const std::vector<Span>& missed) {
+    constexpr double thickness = 5, least = 2.5;
+    for (const Span& span : missed) {
+      const double left = frame_.across(std::max(span.from, time_.front())),
+                   right = frame_.across(std::min(span.until, time_.back()));
+      if (!(right >= left)) continue;
+      const double wide = std::max(right - left, least);
+      svg_ += fmt::format("<rect class=\"missed\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\"/>\n",
+                          std::clamp(0.5 * (left + right - wide), marginLeft, frame_.width - marginRight - wide),
+                          frame_.height - marginBottom - thickness, wide, thickness);
+    }
+  }
+
+  void drawLimitsAcross(double from, double until) {
+    for (const Layer& layer : layers_) {
+      if (layer.kind != Layer::Kind::line || layer.labels.empty()) continue;
+      Pen pen;
+      for (const Band& band : layer.bands)
+        if (const auto value = std::ranges::find_if(band.lower, isDrawn); value != band.lower.end())
+          pen.stroke(from, frame_.down(*value), until, frame_.down(*value));
+      drawPath(layer.name, pen, svg_);
+    }
+  }
+
   double across(std::size_t i) const { return frame_.across(time_[i]); }
   double down(double value) const { return frame_.down(clipped(value, frame_.y)); }
 
@@ -135,6 +188,7 @@ class TimeChart {
 
   const std::vector<double>& time_;
   const std::vector<Layer>& layers_;
+  const std::vector<Span>* missed_ = nullptr;
   Frame frame_;
   std::string svg_;
 };
@@ -142,7 +196,16 @@ class TimeChart {
 }  // namespace
 
 std::string drawPlot(const Plot& plot, const std::string& label) {
-  return TimeChart(plot, plot.layers, valuesOf(plot.layers).padded(0.04), 280, paperWidth).svg(plot.unit, label);
+  TimeChart chart(plot, plot.layers, valuesOf(plot.layers).padded(0.04), 280, paperWidth);
+  chart.marked(plot.missed);
+  return chart.svg(plot.unit, label);
+}
+
+std::string drawPlotWith(const BesideMoment& moment, double around, const Plot& plot, const std::string& label) {
+  constexpr double besideMotion = 220;
+  TimeChart chart(plot, plot.layers, valuesOf(plot.layers).padded(0.04), 280, paperWidth - besideMotion);
+  chart.marked(plot.missed);
+  return chart.svgWith(moment, around, plot.unit, label, paperWidth);
 }
 
 std::string drawSmall(const Plot& plot, const std::string& label, bool isShare) {

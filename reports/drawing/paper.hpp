@@ -4,12 +4,16 @@
 
 #include <string>
 
+#include "reports/drawing/beside.hpp"
 #include "reports/drawing/plot.hpp"
 
 namespace gamut {
 
 /// The layers over time, 720 x 280 units. `label` says for those who cannot see it what is drawn.
 std::string drawPlot(const Plot& plot, const std::string& label);
+
+/// The same, and beside it on the same axis what is known at an instant; values there are drawn less `around`.
+std::string drawPlotWith(const BesideMoment& moment, double around, const Plot& plot, const std::string& label);
 
 /// The same on smaller paper; shares are drawn from 0 to 1.
 std::string drawSmall(const Plot& plot, const std::string& label, bool isShare = false);

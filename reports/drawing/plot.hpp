@@ -11,12 +11,18 @@
 
 namespace gamut {
 
+/// A stretch of time, s.
+struct Span {
+  double from = 0, until = 0;
+};
+
 /// All lines are as long as `time`.
 struct Plot {
   std::string name, unit;
-  std::vector<double> time;   ///< s
-  std::vector<Layer> layers;  ///< from back to front
-  std::vector<Layer> ratios;  ///< pure numbers, drawn below on an axis of their own
+  std::vector<double> time;       ///< s
+  std::vector<Layer> layers;      ///< from back to front
+  std::vector<Layer> ratios;      ///< pure numbers, drawn below on an axis of their own
+  std::vector<Span> missed = {};  ///< where a requirement may be violated, one behind the other
 
   /// Otherwise every layer has one number, and is drawn as a bar.
   bool isOverTime() const { return time.size() > 1; }

@@ -152,11 +152,15 @@ std::string plotData(const Plot& whole, std::size_t times) {
   const Writer writer(whole);
   const std::vector<double> middle = writer.wholes(plot.middle());
   const bool isThinned = plot.time.size() < whole.time.size();
+  std::vector<std::string> missed;
+  for (const Span& span : plot.missed) missed.push_back(numberList({span.from, span.until}, 12));
   return fmt::format(
-      R"({{"name":{},"unit":{},"middleName":{},"thin":{},"scale":{},"middle":{},"layers":{},"around":{},"ratios":{}}})",
+      R"({{"name":{},"unit":{},"middleName":{},"thin":{},"scale":{},"middle":{},"layers":{},"around":{},"ratios":{},)"
+      R"("missed":{}}})",
       jsonText(plot.name), jsonText(plot.unit), jsonText(plot.middleName()), whole.isThin(), writer.scale(),
       secondDifferences(middle), writer.layers(plot.layers, middle),
-      isThinned ? writer.layers(thinned(aroundMiddle(whole), times).layers, {}) : "null", Writer::ratios(plot.ratios));
+      isThinned ? writer.layers(thinned(aroundMiddle(whole), times).layers, {}) : "null", Writer::ratios(plot.ratios),
+      jsonList(missed));
 }
 
 }  // namespace gamut

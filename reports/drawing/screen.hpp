@@ -39,11 +39,12 @@ std::string secondDifferences(const std::vector<double>& wholes);
 std::string timeData(const Plot& plot, std::size_t times = plottedTimes);
 
 /// {"name", "unit", "middleName", "thin", "scale", "middle": line, "layers": [layer, ..], "around": [layer, ..],
-/// "ratios": [layer, ..]}, a layer {"name", "words", "kind": "band" | "line" | "stack", "readout", "filled", "width",
-/// "dashed", "spread", "labels", "levels", "bands": [[lower, upper], ..]}, of a line [[values]]. All lines are second
-/// differences of whole numbers * 10^scale; those of layers are counted from the middle. Bounds are rounded outward;
-/// null where there is no number. "around", counted from the middle itself, is there where times were left out: the
-/// spread is then more than the difference of lines. Ratios are plain numbers. Safe inside a <script> element.
+/// "ratios": [layer, ..], "missed": [[from, until], ..]} in s, a layer {"name", "words", "kind": "band" | "line" |
+/// "stack", "readout", "filled", "width", "dashed", "spread", "labels", "levels", "bands": [[lower, upper], ..]}, of a
+/// line [[values]]. All lines are second differences of whole numbers * 10^scale; those of layers are counted from the
+/// middle. Bounds are rounded outward; null where there is no number. "around", counted from the middle itself, is
+/// there where times were left out: the spread is then more than the difference of lines. Ratios are plain numbers.
+/// Safe inside a <script> element.
 std::string plotData(const Plot& plot, std::size_t times = plottedTimes);
 
 }  // namespace gamut

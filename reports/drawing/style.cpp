@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gamut {
@@ -13,12 +14,15 @@ std::string variables(const Layer& layer, std::string_view colour) {
   return fmt::format("--{0}:{1};--{0}-fill:{1}{2:02x};", layer.name, colour, opacity);
 }
 
-/// In the key: a patch of the band, a line, or for a stack a patch that grows darker.
+/// In the key: a patch of the band, an outline, a line, or for a stack outlines one in the other.
 std::string swatch(const Layer& layer) {
   const std::string line = fmt::format("{}px {} var(--{})", layer.style.fill > 0 ? 1.5 : 2,
                                        layer.style.isDashed ? "dashed" : "solid", layer.name);
-  if (layer.kind == Layer::Kind::stack)
-    return fmt::format("background:linear-gradient(90deg,var(--{0}-fill),var(--{0}))", layer.name);
+  if (layer.kind == Layer::Kind::stack)  // lines in lines
+    return fmt::format("border:1px solid var(--{0});box-shadow:inset 0 0 0 2px var(--paper),inset 0 0 0 3px var(--{0})",
+                       layer.name);
+  if (layer.style.fill == 0 && layer.kind == Layer::Kind::band && !layer.style.isDashed)
+    return fmt::format("border:{}px solid var(--{})", std::max(1.0, layer.style.width), layer.name);
   if (layer.style.fill == 0) return "height:0;border-top:" + line;
   return fmt::format("background:var(--{}-fill)", layer.name) + (layer.style.width > 0 ? ";border:" + line : "");
 }
@@ -35,7 +39,9 @@ void StyleSheet::add(const Plot& plot) {
       if (layer.style.width > 0)
         rules_ += fmt::format(".drawing .{0}{{stroke:var(--{0});stroke-width:{1}{2}}}\n", layer.name, layer.style.width,
                               layer.style.isDashed ? ";stroke-dasharray:5 3" : "");
-      rules_ += fmt::format(".drawing rect.{0}{{fill:var(--{0});opacity:.6;stroke:none}}\n", layer.name);
+      rules_ += layer.style.fill > 0
+                    ? fmt::format(".drawing rect.{0}{{fill:var(--{0});opacity:.6;stroke:none}}\n", layer.name)
+                    : fmt::format(".drawing rect.{0}{{fill:none}}\n", layer.name);
       rules_ += fmt::format(".swatch.{}{{{}}}\n", layer.name, swatch(layer));
     }
 }

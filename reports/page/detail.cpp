@@ -10,7 +10,7 @@
 namespace gamut {
 namespace {
 
-constexpr std::size_t mostPlotted = 40, mostFolded = 320, mostCarded = 20, mostTimes = 2000, mostPaperTimes = 200,
+constexpr std::size_t mostPlotted = 60, mostFolded = 320, mostCarded = 20, mostTimes = 2000, mostPaperTimes = 200,
                       fullPlots = 8, mostRows = 2000, mostMachineNumbers = 400'000, mostText = 2'000'000;
 
 /// Outputs whose plots may be shown, the most telling first.

@@ -79,44 +79,9 @@ std::string verdictCard(const Verdict& verdict) {
 std::string approachesList(const Results& results) {
   const std::vector<std::string> lines = approachLines(results, approachesOf(results));
   if (lines.empty()) return {};
-  std::string list = "<p>Closest approaches, guaranteed:</p>\n<ul class=\"approaches\">\n";
+  std::string list = "<section class=\"ranges\">\n<p>Closest approaches, guaranteed:</p>\n<ul class=\"approaches\">\n";
   for (const std::string& line : lines) list += fmt::format("<li>{}</li>\n", escapeHtml(line));
-  return list + "</ul>\n";
-}
-
-/// What every output does over the whole motion: the limits that it keeps, and when it comes there.
-std::string rangesTable(const Results& results) {
-  constexpr std::size_t most = 12;  // that are seen at once
-  std::size_t shown = 0;
-  const auto rows = [&](TableText& table, std::size_t& output, std::size_t count) {
-    for (; output < results.outputs.size() && count > 0; ++output) {
-      const std::optional<MotionRange> range = bestMotionRange(results, output);
-      if (isMargin(results, output) || !range) continue;
-      const auto [least, greatest] = peaksText(range->least.value, range->greatest.value);
-      std::vector<std::string> cells{least, greatest};
-      if (results.horizon > 0) {
-        cells.insert(cells.begin() + 1, whenLeast(results, *range));
-        cells.push_back(whenGreatest(results, *range));
-      }
-      table.row(headingOf(results.outputs[output].name, results.outputs[output].unit), cells);
-      ++shown;
-      --count;
-    }
-  };
-  const std::string caption = rangesCaption(results);
-  const std::vector<std::string> heads = results.horizon > 0
-                                             ? std::vector<std::string>{"output", "least", "when", "greatest", "when"}
-                                             : std::vector<std::string>{"output", "least", "greatest"};
-  std::size_t output = 0;
-  TableText first(caption, heads), others(caption, heads);
-  rows(first, output, most);
-  if (shown == 0) return {};
-  rows(others, output, results.outputs.size());
-  return "<section class=\"ranges\">\n" + first.html() +
-         (shown > most
-              ? "<details class=\"more\"><summary>All other outputs</summary>\n" + others.html() + "</details>\n"
-              : "") +
-         approachesList(results) + "</section>\n";
+  return list + "</ul>\n</section>\n";
 }
 
 // ---- The plot -------------------------------------------------------------------------------------------------------
@@ -142,15 +107,16 @@ struct Essential {
 };
 
 constexpr Essential essential[] = {
-    {"guaranteed", Essential::Of::proof, "blue: where it lies in every case that the stated tolerances allow"},
+    {"guaranteed", Essential::Of::proof,
+     "grey: the ends between which it lies in every case that the stated tolerances allow"},
     {"tube", Essential::Of::proof},
     {"estimated", Essential::Of::all,
-     "pink: behind the end of the proof, where simulated cases lie, which is not proved of all"},
-    {"sampled", Essential::Of::samples, "dashed: the least and the greatest of all simulated cases"},
-    {"probable", Essential::Of::samples, "orange band: where most of them lie"},
-    {"possible", Essential::Of::cuts, "violet: where it can lie, the darker the more possible"},
-    {"median", Essential::Of::all, "orange line: half of the simulated cases lie below"},
-    {"limit", Essential::Of::all, "red, dashed: the limit"}};
+     "pink, dashed: behind the end of the proof, where simulated cases lie, which is not proved of all"},
+    {"sampled", Essential::Of::samples, "blue, dashed: the least and the greatest of all simulated cases"},
+    {"probable", Essential::Of::samples, "blue band: where most of them lie"},
+    {"possible", Essential::Of::cuts, "orange: where it can lie, the narrower the more possible"},
+    {"median", Essential::Of::all, "blue line: half of the simulated cases lie below"},
+    {"limit", Essential::Of::all, "red: the limit"}};
 
 bool has(const Plot& plot, std::string_view layer) {
   return std::ranges::find(plot.layers, layer, &Layer::name) != plot.layers.end();
@@ -313,7 +279,7 @@ std::string firstSection(const Report& report) {
              "<section id=\"found\" class=\"first {}\" aria-label=\"What was found\">\n<p class=\"lead\">{}</p>\n",
              tone(results, report.verdict), escapeHtml(plainSummary(results, report.verdict, foremost.output))) +
          requirementCards(report) + verdictCard(report.verdict) +
-         (report.verdict.word == Agreement::outside ? "" : rangesTable(results)) +
+         (report.verdict.word == Agreement::outside ? "" : approachesList(results)) +
          (isThere ? plotOfForemost(results, foremost) + ranking(results, foremost.output) : "") + "</section>\n";
 }
 

@@ -1,18 +1,26 @@
-// A section an output: its numbers, the place of its interactive plot, and the drawings for paper. One key for all.
+// A row an output, which unfolds: its numbers, the place of its interactive plot, and the drawings for paper. One key
+// for all.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "reports/drawing/paper.hpp"
 #include "reports/drawing/screen.hpp"
+#include "reports/drawing/spark.hpp"
 #include "reports/drawing/style.hpp"
+#include "reports/page/instant.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/table.hpp"
 #include "reports/sections/contribution.hpp"
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
+#include "studies/results/extremes.hpp"
 
 namespace gamut {
 namespace {
@@ -62,25 +70,136 @@ bool hasSpread(const Plot& plot) {
   return !isLittle(width, size);
 }
 
-std::string motionSection(const Plot& plot, std::size_t output, const Detail& detail) {
+// ---- Rows -----------------------------------------------------------------------------------------------------------
+
+/// What is told of an output while it is folded away.
+struct PanelRow {
+  std::string unit, least, whenLeast, greatest, whenGreatest;
+  double low = std::numeric_limits<double>::quiet_NaN(), high = low, peak = low;  ///< the latter in s: when
+  std::optional<OutputState> state;
+};
+
+PanelRow rowOf(const Results& results, std::size_t output) {
+  const std::string& unit = results.outputs[output].unit;
+  PanelRow row;
+  row.unit = unit == "1" ? "" : unit;
+  row.state = stateOfOutput(results, output);
+  const std::optional<MotionRange> range = bestMotionRange(results, output);
+  if (!range) return row;
+  std::tie(row.least, row.greatest) = peaksText(range->least.value, range->greatest.value);
+  const double size = range->size();
+  row.low = isLittle(range->least.value, size) ? 0 : range->least.value;
+  row.high = isLittle(range->greatest.value, size) ? 0 : range->greatest.value;
+  row.whenLeast = whenLeast(results, *range);
+  row.whenGreatest = whenGreatest(results, *range);
+  row.peak = std::abs(row.low) > std::abs(row.high) ? range->least.until : range->greatest.until;
+  return row;
+}
+
+/// "at 0.3 s" without the first word: the column says it.
+std::string shortWhen(std::string when) {
+  if (when.starts_with("at ")) return when.substr(3);
+  if (!when.starts_with("between ")) return when;
+  when = when.substr(8);
+  const auto between = when.find(" s and ");
+  return between == std::string::npos ? when : when.replace(between, 7, " to ");
+}
+
+std::string rowHtml(const Plot& plot, const PanelRow& row) {
+  const bool isLower = std::abs(row.low) > std::abs(row.high);
+  const auto cell = [](const char* name, const char* head, const std::string& text) {
+    return fmt::format("<span class=\"{}\" data-head=\"{}\">{}</span>", name, head, escapeHtml(text));
+  };
+  return fmt::format("<summary class=\"row\"><h3>{}</h3>{}<span class=\"curve\">{}</span>{}{}{}{}</summary>\n",
+                     escapeHtml(plot.name), cell("unit", "", row.unit), drawSpark(plot),
+                     cell("least", "least", row.least), cell("greatest", "greatest", row.greatest),
+                     cell("peak", "peak", shortWhen(isLower ? row.whenLeast : row.whenGreatest)),
+                     row.state ? fmt::format("<b class=\"state {}\">{}</b>", row.state->tone, row.state->words)
+                               : "<b class=\"state\"></b>");
+}
+
+/// Numbers by which a reader may order the rows; none where nothing is known.
+std::string orderKeys(const PanelRow& row) {
+  std::string keys;
+  const auto add = [&](const char* name, double number) {
+    if (std::isfinite(number)) keys += fmt::format(" data-{}=\"{}\"", name, numberText(number, 9));
+  };
+  add("least", row.low);
+  add("greatest", row.high);
+  add("peak", row.peak);
+  add("state", row.state ? row.state->severity : std::numeric_limits<double>::quiet_NaN());
+  return keys;
+}
+
+/// "guaranteed from 0 s to 1 s: least -5.775 m/s^2 between 0.21 s and 0.22 s, greatest …"
+std::string rangeSentence(const Results& results, std::size_t output, const PanelRow& row) {
+  const std::optional<MotionRange> range = bestMotionRange(results, output);
+  if (!range) return "Nothing is known.";
+  const char* word = range->source == MotionRange::Source::ofProof     ? "Guaranteed"
+                     : range->source == MotionRange::Source::ofSamples ? "Sampled"
+                                                                       : "Possible";
+  const auto with = [](const std::string& when) { return when.empty() ? "" : " " + when; };
+  return fmt::format("{}{}: least {}{}, greatest {}{}.", word,
+                     results.horizon == 0 ? std::string() : fmt::format(" up to {}", reachedText(range->until)),
+                     inUnit(row.least, row.unit), with(row.whenLeast), inUnit(row.greatest, row.unit),
+                     with(row.whenGreatest));
+}
+
+std::string panel(const Results& results, const Plot& plot, std::size_t output, const std::string& inside) {
+  const PanelRow row = rowOf(results, output);
+  return fmt::format(
+      "<section class=\"output\"{}{} id=\"output-{}\">\n<details class=\"panel\">{}<p class=\"hint\">{}</p>\n{}"
+      "</details>\n</section>\n",
+      plot.isOverTime() ? fmt::format(" data-output=\"{}\" data-view=\"absolute\"", output) : "", orderKeys(row),
+      output, rowHtml(plot, row), escapeHtml(rangeSentence(results, output, row)), inside);
+}
+
+// ---- Panels ---------------------------------------------------------------------------------------------------------
+
+std::string motionSection(const Results& results, const Plot& plot, std::size_t output, const Detail& detail) {
   const std::string words = description(plot);
   const Plot thin = thinned(plot, detail.paperTimes);
-  const bool isSpread = plot.isThin();
-  const std::string absolute = figure("absolute", "Absolute", drawPlot(thin, "Plot over time of " + words), !isSpread),
-                    spread = !hasSpread(plot) ? std::string()
-                                              : figure("spread", "Spread around " + plot.middleName(),
-                                                       drawPlot(spreadOf(plot, detail.paperTimes),
-                                                                "Plot of the spread around the middle of " + words),
-                                                       isSpread),
+  const std::vector<BesideMoment> moments = besideOf(results, output);
+  const double instant = instantOf(results, output);
+  const BesideMoment* moment = moments.empty() ? nullptr : &nearestTo(moments, std::isnan(instant) ? 0 : instant);
+  const auto drawn = [&](const Plot& motion, double around, const std::string& label) {
+    return moment == nullptr || std::isnan(around) ? drawPlot(motion, label)
+                                                   : drawPlotWith(*moment, around, motion, label);
+  };
+  const std::string absolute = figure("absolute", "Motion", drawn(thin, 0, "Plot over time of " + words), true),
+                    spread =
+                        !hasSpread(plot)
+                            ? std::string()
+                            : figure("spread", "Spread around " + plot.middleName(),
+                                     drawn(spreadOf(plot, detail.paperTimes), moment == nullptr ? 0 : moment->middle,
+                                           "Plot of the spread around the middle of " + words),
+                                     false),
                     ratios = drawRatios(thin, "Plot of the overestimation of " + plot.name);
-  return fmt::format(
-      "<section class=\"output\" data-output=\"{0}\" data-view=\"{1}\" id=\"output-{0}\">\n<h3>{2}</h3>\n"
-      "<script type=\"application/json\">{3}</script>\n"
-      "<div class=\"live\" role=\"group\" aria-label=\"{4}\"></div>\n<div "
-      "class=\"static\">\n{5}{6}{7}</div>\n</section>\n",
-      output, isSpread ? "spread" : "absolute", escapeHtml(plot.name), plotData(plot, detail.times),
-      escapeHtml("Interactive plot of " + words), isSpread ? spread : absolute, isSpread ? absolute : spread,
-      ratios.empty() ? "" : figure("ratio", "Overestimation", ratios, false));
+  return panel(results, plot, output,
+               fmt::format("<script type=\"application/json\">{}</script>\n{}"
+                           "<div class=\"live\" role=\"group\" aria-label=\"{}\"></div>\n"
+                           "<div class=\"static\">\n{}{}{}</div>\n",
+                           plotData(plot, detail.times),
+                           besideTemplate(moments, "Plot of what is known of " + plot.name + " at an instant"),
+                           escapeHtml("Interactive plot of " + words), absolute, spread,
+                           ratios.empty() ? "" : figure("ratio", "Overestimation", ratios, false)));
+}
+
+/// What the columns of the rows are; a script makes buttons of them, which order the rows.
+std::string headsOf(const Results& results) {
+  std::string heads = "<div class=\"heads\" aria-hidden=\"true\">";
+  for (const auto& [key, words] : {std::pair("name", "output"),
+                                   {"", "unit"},
+                                   {"", "motion"},
+                                   {"least", "least"},
+                                   {"greatest", "greatest"},
+                                   {"peak", "peak"},
+                                   {"state", "requirement"}})
+    heads += fmt::format("<span{}>{}</span>", *key == '\0' ? std::string() : fmt::format(" data-key=\"{}\"", key),
+                         results.horizon == 0 && words == std::string_view("motion") ? "range"
+                         : results.horizon == 0 && words == std::string_view("peak") ? ""
+                                                                                     : words);
+  return heads + "</div>\n";
 }
 
 /// The numbers of the bars, as they can be copied.
@@ -103,10 +222,10 @@ std::string barNumbers(const Plot& plot) {
   return numbers.html();
 }
 
-std::string positionSection(const Plot& plot, std::size_t output) {
-  return fmt::format(
-      "<section class=\"output\" id=\"output-{}\">\n<h3>{}</h3>\n<figure class=\"kept\">{}{}</figure>\n</section>\n",
-      output, escapeHtml(plot.name), drawBars(plot, "Bars of " + description(plot)), barNumbers(plot));
+std::string positionSection(const Results& results, const Plot& plot, std::size_t output) {
+  return panel(results, plot, output,
+               fmt::format("<figure class=\"kept\">{}{}</figure>\n", drawBars(plot, "Bars of " + description(plot)),
+                           barNumbers(plot)));
 }
 
 /// The layers of all plots, each once.
@@ -182,11 +301,12 @@ OutputPlots outputPlots(const Results& results, const Detail& detail) {
     const Plot plot = plotOf(results, k);
     style.add(plot);
     gather(key, plot);
-    plots += plot.isOverTime() ? motionSection(plot, k, detail) : positionSection(plot, k);
+    plots += plot.isOverTime() ? motionSection(results, plot, k, detail) : positionSection(results, plot, k);
     if (plot.isOverTime() && outputs.data.empty()) outputs.data = timeData(plot, detail.times);
   }
   if (!outputs.data.empty()) outputs.html = drawKey(key, "Key to all plots over time");
-  outputs.html += plots + furtherOutputs(results, detail, style);
+  if (!plots.empty()) outputs.html += fmt::format("<div class=\"listed\">\n{}{}</div>\n", headsOf(results), plots);
+  outputs.html += furtherOutputs(results, detail, style);
   outputs.style = style.css();
   return outputs;
 }

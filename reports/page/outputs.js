@@ -9,7 +9,7 @@
 /**
  * As timeData and plotData (reports/drawing/screen.hpp) write it.
  * @typedef {{name: string, unit: string, middleName: string, thin: boolean, scale: number, middle: Line, layers: Layer[],
- *   around: Layer[] | null, ratios: Layer[]}} Output
+ *   around: Layer[] | null, ratios: Layer[], missed: number[][]}} Output
  */
 
 /** Whole numbers from second differences: null where there is none. @param {Line} list @returns {Line} */

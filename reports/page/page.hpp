@@ -41,6 +41,14 @@ PlotSection sensitivityPlots(const Results& results, const Detail& detail);
 /// Membership functions of all outputs at some times; empty where there are none.
 std::string membershipFigures(const Results& results, const Detail& detail);
 
+/// How the worst requirement that limits an output stands.
+struct OutputState {
+  int severity = 0;         ///< as severityOf
+  std::string tone, words;  ///< its class in the style sheet: "violated"; "violated in simulation"
+};
+/// Nothing where none does.
+std::optional<OutputState> stateOfOutput(const Results& results, std::size_t output);
+
 /// The output that is drawn first.
 std::size_t foremostOutput(const Results& results);
 

@@ -1,14 +1,18 @@
-// Puts an interactive plot in the place of each drawing, first where the reader is, then one by one: layers that switch on and
-// off, the motion or the spread around its middle, one zoom and one cursor for all outputs. Without this script the
-// drawings stay.
+// Puts an interactive plot in the place of each drawing that is unfolded: layers that switch on and off, the motion or the
+// spread around its middle, beside it on the same axis what is known at the time of the page, one zoom and one cursor for
+// all outputs. Without this script the drawings stay.
 "use strict";
 
 import { axisName, padded, ticks } from "./axes.js";
-import { all, followTime, made, makeSwitches, one, press, pressable } from "./dom.js";
+import { Beside } from "./beside.js";
+import { all, chooseTime, followTime, made, makeSwitches, nearestTo, one, press, pressable } from "./dom.js";
 import { addButtons, headingOf, hidden } from "./keep.js";
 import { columnsOf, readOutput, readoutOf, shownOf } from "./outputs.js";
 
-/** @typedef {{layer: string, label: string, isBelow: boolean, line: (number | null)[], stroke?: string, dash?: number[], width: number}} Drawn */
+/**
+ * @typedef {{layer: string, label: string, isBelow: boolean, isLimit: boolean, isAround: boolean, line: (number | null)[],
+ *   stroke?: string, dash?: number[], width: number}} Drawn
+ */
 
 /** @type {number[]} */
 const time = JSON.parse(one("#times").textContent ?? "").time;
@@ -16,6 +20,8 @@ const time = JSON.parse(one("#times").textContent ?? "").time;
 const drawn = new Set();
 /** The times that all plots show, where somebody chose them. @type {{min: number, max: number} | null} */
 let shown = null;
+/** The time of the page, s. */
+let pageTime = Number(all(".clock")[0]?.dataset.instant ?? 0);
 
 /** @param {string} name */
 const color = name => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
@@ -24,7 +30,7 @@ const color = name => getComputedStyle(document.documentElement).getPropertyValu
 const known = new Map();
 /** @param {string} [number] */
 const outputOf = number => {
-  const output = known.get(number) ?? readOutput(one("section.output[data-output='" + number + "'] > script").textContent ?? "");
+  const output = known.get(number) ?? readOutput(one("section.output[data-output='" + number + "'] > details > script").textContent ?? "");
   known.set(number, output);
   return output;
 };
@@ -40,13 +46,15 @@ const linesOf = (layers, isSpread) => {
   const lines = [];
   /** @type {uPlot.Band[]} */
   const bands = [];
-  for (const layer of layers) {
-    if (isSpread && !layer.spread) continue;
+  for (const layer of [...layers].sort((a, b) => Number(b.filled) - Number(a.filled))) {  // lines are seen on fills
+    const isLimit = layer.name === "limit";
+    if (isSpread && !layer.spread && !isLimit) continue;
     const dash = layer.dashed ? [6, 4] : undefined;
     const style = layer.width > 0 ? { stroke: color(layer.name), width: layer.width, dash } : { width: 0 };
     (isSpread ? layer.around : layer.bands).forEach((band, i) => {
       if (layer.filled) bands.push({ series: [lines.length + 2, lines.length + 1], fill: color(layer.name + "-fill") });
-      for (const line of band) lines.push({ layer: layer.name, label: layer.labels[i], isBelow: i % 2 === 1, line, ...style });
+      const about = { layer: layer.name, label: layer.labels[i], isBelow: i % 2 === 1, isLimit, isAround: layer.spread };
+      for (const line of band) lines.push({ ...about, line, ...style });
     });
   }
   return { lines, bands };
@@ -144,30 +152,81 @@ const drawLabels = (plot, lines) => {
   ctx.restore();
 };
 
+/**
+ * Least and greatest of what is seen: limits count wherever they are, or, beside a spread, not at all.
+ * @param {uPlot} plot @param {Drawn[]} lines @param {boolean} isSpread @returns {[number, number]}
+ */
+const rangeOf = (plot, lines, isSpread) => {
+  const [from, to] = plot.series[0].idxs ?? [0, time.length - 1];
+  let low = Infinity, high = -Infinity;
+  lines.forEach(({ line, isLimit }, k) => {
+    if (!plot.series[k + 1].show || isLimit && isSpread) return;
+    const [first, last] = isLimit ? [0, time.length - 1] : [from, to];
+    for (let i = first; i <= last; ++i) {
+      const x = line[i];
+      if (x == null) continue;
+      low = Math.min(low, x);
+      high = Math.max(high, x);
+    }
+  });
+  return padded(low, high, 0.04);
+};
+
+/**
+ * The time of the page, and along the lower end where a requirement may be violated, wide enough to be seen.
+ * @param {uPlot} plot @param {number[][]} missed
+ */
+const drawMarks = (plot, missed) => {
+  const { ctx, bbox } = plot, px = devicePixelRatio, right = bbox.left + bbox.width;
+  ctx.save();
+  ctx.fillStyle = color("outside");
+  for (const [from, until] of missed) {
+    const a = Math.max(plot.valToPos(from, "x", true), bbox.left), b = Math.min(plot.valToPos(until, "x", true), right);
+    const wide = Math.max(b - a, 3 * px);
+    if (b >= a) ctx.fillRect(Math.min((a + b - wide) / 2, right - wide), bbox.top + bbox.height - 6 * px, wide, 6 * px);
+  }
+  const at = plot.valToPos(pageTime, "x", true);
+  ctx.fillStyle = color("soft");
+  if (at >= bbox.left && at <= right) ctx.fillRect(at - px / 2, bbox.top, px, bbox.height);
+  ctx.restore();
+};
+
+/** A click, unless it ends a zoom, chooses the time of the page. @param {uPlot} plot */
+const chooseByClick = plot => {
+  let begun = NaN;
+  plot.over.addEventListener("mousedown", ({ clientX }) => { begun = clientX; });
+  plot.over.addEventListener("click", ({ clientX }) => {
+    if (Math.abs(clientX - begun) < 3) chooseTime(plot.posToVal(clientX - plot.over.getBoundingClientRect().left, "x"));
+  });
+};
+
 /** @param {HTMLElement} place */
 const heightIn = place => place.clientWidth < 480 ? 240 : 300;
 
 /**
- * @param {HTMLElement} place @param {string} name @param {Drawn[]} lines @param {uPlot.Band[]} bands
- * @param {(i?: number | null) => void} onCursor
+ * @typedef {{name: string, lines: Drawn[], bands: uPlot.Band[], isSpread: boolean, onCursor: (i?: number | null) => void,
+ *   onDraw: (plot: uPlot) => void}} Look
  */
-const makePlot = (place, name, lines, bands, onCursor) => {
+
+/** @param {HTMLElement} place @param {Look} look */
+const makePlot = (place, { name, lines, bands, isSpread, onCursor, onDraw }) => {
   let isReady = false;
   const plot = new uPlot({
-    width: Math.max(place.clientWidth, 200), height: heightIn(place), bands,
-    scales: { x: { time: false }, y: { range: (_, low, high) => padded(low, high, 0.04) } },
+    width: Math.max(place.clientWidth, 160), height: heightIn(place), bands,
+    scales: { x: { time: false }, y: { range: drawnPlot => rangeOf(drawnPlot, lines, isSpread) } },
     legend: { show: false },
-    cursor: { y: false, sync: { key: "gamut", scales: ["x", null] }, points: { show: false }, drag: { x: true, y: false } },
+    cursor: { y: false, sync: { key: "gamut", scales: ["x", null] }, points: { show: false }, drag: { x: true, y: true, uni: 24 } },
     axes: [axis("time (s)", 32, 80), axis(name, 58, 45)],
     series: [{}, ...lines.map(({ layer, stroke, width, dash }) => ({
       stroke: stroke || "transparent", width, dash, show: !hidden.has(layer), points: { show: false }, spanGaps: false,
     }))],
     hooks: {
       setScale: [(changed, key) => { if (key === "x" && isReady) shareTimes(changed); }],
-      setCursor: [({ cursor }) => onCursor(cursor.idx)], draw: [painted => drawLabels(painted, lines)],
+      setCursor: [({ cursor }) => onCursor(cursor.idx)], draw: [onDraw, painted => drawLabels(painted, lines)],
     },
   }, [time, ...lines.map(({ line }) => line)], place);
   if (shown) plot.setScale("x", shown);
+  chooseByClick(plot);
   isReady = true;
   return plot;
 };
@@ -186,7 +245,9 @@ class OutputPlot {
     this.lines = [];
     for (const details of all(".static details", section)) details.replaceWith(one("figure", details));
     if (section.dataset.layers == null) this.addViews();
-    this.main = made("div", { className: "canvas" }, this.place);
+    const pair = made("div", { className: "pair" }, this.place), [template] = all("template.beside", section);
+    this.main = made("div", { className: "canvas" }, pair);
+    this.beside = template ? new Beside(/** @type {HTMLTemplateElement} */ (template), pair) : null;
     const about = made("div", { className: "about" }, this.place);
     this.readout = made("p", { className: "readout" }, about);
     section.classList.add("plotted");
@@ -210,10 +271,29 @@ class OutputPlot {
       const view = figure.dataset.view;
       views.append(pressable([one("figcaption", figure).textContent ?? ""], view === this.section.dataset.view, button => {
         this.section.dataset.view = view;
-        for (const other of views.children) press(other, other === button);
+        for (const other of all("[aria-pressed]", views)) press(other, other === button);
         this.draw();
       }));
     }
+    const closer = made("button", { type: "button", textContent: "Zoom to the time" }, views);
+    closer.addEventListener("click", () => this.zoom());
+  }
+
+  /** So close to the time of the page that what is known there fills much of the plot. */
+  zoom() {
+    const { plot, lines } = this, bounds = lines.filter(({ isAround }) => isAround), at = nearestTo(time, pageTime);
+    const values = bounds.map(({ line }) => line[at]).filter(x => x != null);
+    if (!plot || values.length === 0) return;
+    const [low, high] = padded(Math.min(...values), Math.max(...values), 0.6);
+    /** @param {number} i */
+    const isSeen = i => bounds.some(({ line }) => (line[i] ?? low) >= low && (line[i] ?? low) <= high);
+    let from = Math.max(0, at - 2), until = Math.min(time.length - 1, at + 2);
+    while (from > 0 && at - from < time.length / 16 && isSeen(from)) --from;
+    while (until + 1 < time.length && until - at < time.length / 16 && isSeen(until)) ++until;
+    plot.batch(() => {
+      plot.setScale("x", { min: time[from], max: time[until] });
+      plot.setScale("y", { min: low, max: high });
+    });
   }
 
   draw() {
@@ -223,10 +303,18 @@ class OutputPlot {
     const name = view === "ratio" ? ratios[0].words : view === "spread" ? "deviation" + (unit ? " (" + unit + ")" : "") : unit;
     /** @param {number | null} [i] */
     const read = i => {
-      this.readout.textContent = i == null ? "Point at the plot to read it; drag to zoom, double-click to see all." : readoutOf(output, time, i);
+      this.readout.textContent = i == null
+        ? "Point at the plot to read it, click to choose the time; drag to zoom, double-click to see all." : readoutOf(output, time, i);
     };
     this.lines = lines;
-    this.plot = makePlot(this.main, name, lines, bands, read);
+    const isSpread = view === "spread", isRatio = view === "ratio", missed = isRatio ? [] : output.missed;
+    const limits = isSpread ? [] : lines.filter(({ isLimit }) => isLimit).map(({ line }) => line);
+    /** @param {uPlot} plot */
+    const onDraw = plot => {
+      drawMarks(plot, missed);
+      this.beside?.draw(plot, isRatio ? null : pageTime, isSpread, limits);
+    };
+    this.plot = makePlot(this.main, { name, lines, bands, isSpread, onCursor: read, onDraw });
     read();
     drawn.add(this);
   }
@@ -246,6 +334,8 @@ class OutputPlot {
 }
 
 followTime(at => {
+  pageTime = at;
+  for (const { plot, main } of drawn) if (main.clientWidth > 0) plot?.redraw(false, false);
   const [first] = drawn;  // whose cursor all others have
   first?.plot?.setCursor({ left: first.plot.valToPos(at, "x"), top: 1 });
 });
@@ -256,30 +346,21 @@ makeSwitches(".outputs > .keys li", (layer, isShown) => {
   for (const plot of drawn) plot.show(layer, isShown);
 });
 
-/** @type {Map<Element, OutputPlot>} */
-const plots = new Map(all("section.output[data-output]").map(section => [section, new OutputPlot(section)]));
 /** @param {Element} section */
 const drawOnce = section => {
-  near.unobserve(section);
   const plot = plots.get(section);
   if (!plot?.plot) plot?.draw();
 };
-const near = new IntersectionObserver(entries => {
-  for (const { target, isIntersecting } of entries) if (isIntersecting) drawOnce(target);
-}, { rootMargin: "600px" });
-plots.forEach((_, section) => near.observe(section));
-// The others one by one, whenever there is nothing else to do. <html data-plots> says whether some are waiting.
+/** @type {Map<Element, OutputPlot>} */
+const plots = new Map(all("section.output[data-output]").map(section => [section, new OutputPlot(section)]));
+for (const section of plots.keys()) all("details.panel", section)[0]?.addEventListener("toggle", () => drawOnce(section));
+// The first, as soon as there is nothing else to do. <html data-plots> says whether it is waiting.
+document.documentElement.dataset.plots = "waiting";
 /** @param {() => void} then */
 const later = then => "requestIdleCallback" in window ? requestIdleCallback(then, { timeout: 300 }) : setTimeout(then, 50);
-const waiting = [...plots.keys()];
-const drawNext = () => {
-  const next = waiting.shift();
-  document.documentElement.dataset.plots = next ? "waiting" : "drawn";
-  if (!next) return;
-  drawOnce(next);
-  later(drawNext);
-};
-document.documentElement.dataset.plots = "waiting";
-later(drawNext);
+later(() => {
+  for (const section of plots.keys()) if (section.matches(".foremost")) drawOnce(section);
+  document.documentElement.dataset.plots = "drawn";
+});
 new ResizeObserver(() => drawn.forEach(plot => plot.resize())).observe(document.body);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => drawn.forEach(plot => plot.draw()));

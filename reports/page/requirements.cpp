@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -153,13 +154,27 @@ std::string threeAnswers(const RequirementWords& words) {
 }
 
 /// The first word of a card.
-std::string stateOf(const RequirementResult& requirement, const RequirementWords& words) {
+std::string stateOf(const RequirementResult& requirement) {
   return requirement.isViolatedInSimulation     ? "violated in simulation"
          : requirement.word == Decision::partly ? "violated"
-                                                : words.word;
+                                                : std::string(wordOf(requirement.word));
 }
 
 }  // namespace
+
+std::optional<OutputState> stateOfOutput(const Results& results, std::size_t output) {
+  std::optional<OutputState> worst;
+  if (results.comparison.verdict == Agreement::outside) return worst;  // nothing is known then
+  for (const Limit& limit : limitsOf(results)) {
+    if (limit.output != output) continue;
+    const RequirementResult& requirement = results.requirements[limit.requirement];
+    const int severity = severityOf(requirement);
+    if (worst && worst->severity <= severity) continue;
+    constexpr std::array tones{"violated", "violated", "simulated", "open", "met"};
+    worst = {severity, tones[static_cast<std::size_t>(std::clamp(severity, 0, 4))], stateOf(requirement)};
+  }
+  return worst;
+}
 
 std::string requirementCards(const Report& report) {
   const Results& results = report.results;
@@ -177,12 +192,13 @@ std::string requirementCards(const Report& report) {
     }
     html += fmt::format(
         "<li class=\"{}\" id=\"requirement-{}\"><b>{}</b> <span>{}</span> {}{}\n", words[r].word, r + 1,
-        stateOf(requirement, words[r]), escapeHtml(words[r].name), escapeHtml(sentences[r]),
+        stateOf(requirement), escapeHtml(words[r].name), escapeHtml(sentences[r]),
         requirement.factor > 0 && requirement.word != Decision::met
             ? fmt::format(" It is met in every case if all tolerances shrink to {}.", percentText(requirement.factor))
             : "");
-    if (const std::optional<Worst> at = worstOf(results, requirement); at && ++shown <= drawn)
+    if (const std::optional<Worst> at = worstOf(results, requirement); at && ++shown <= drawn) {
       html += "<div class=\"seen\">" + marginBar(results, requirement, *at) + closeUp(report, r, *at) + "</div>\n";
+    }
     html += threeAnswers(words[r]) + "</li>\n";
   }
   const std::string more = unshownRequirements(results);

@@ -218,7 +218,7 @@ std::string statisticsFigure(const Results& results, std::size_t output, StyleSh
   plot.name = results.outputs[output].name;
   plot.unit = headingOf("from the mean", unit);
   for (const std::size_t row : rows) plot.time.push_back(results.time[row]);
-  Layer quantiles{.name = "quantiles", .words = "quantiles", .style = {colour::orange, 0.5, 0.7}},
+  Layer quantiles{.name = "quantiles", .words = "quantiles", .style = {colour::blue, 0.4, 0.7}},
       mean{.name = "mean", .words = "mean", .style = {colour::black, 0.45, 0.7}};
   for (std::size_t q = 0; q < s.quantiles.size(); ++q) {
     Band& band = quantiles.bands.emplace_back();
@@ -253,10 +253,10 @@ std::string statisticsHint(const Results& results) {
   const bool isKnown =
       !s.meanError.empty() && std::ranges::any_of(s.meanError.data, [](double x) { return std::isfinite(x); });
   if (!isKnown)
-    return "Mean (black) and quantiles (orange) of the samples, as deviations from the mean; how far those of all "
+    return "Mean (black) and quantiles (blue) of the samples, as deviations from the mean; how far those of all "
            "motions lie from them is not known.";
   return fmt::format(
-      "Mean (black) and quantiles (orange), as deviations from the mean of the samples: those of all motions, "
+      "Mean (black) and quantiles (blue), as deviations from the mean of the samples: those of all motions, "
       "distributed as the samples are, lie in the bands with 95 % confidence, each number by itself (from 16 "
       "independent batches{}).",
       s.plan == Placement::random ? "; quantiles from the samples' order" : "");

@@ -15,9 +15,8 @@ void drawPossible(const Results& results, std::size_t output, Plot& plot) {
   const FuzzyResult& fuzzy = results.fuzzy;
   if (!fuzzy.present || fuzzy.outer.empty()) return;
   Layer layer{.name = "possible",
-              .words = plot.isOverTime() ? "possible: alpha-cuts, the darker the more possible"
-                                         : "possible: alpha-cuts, the narrowest the most possible",
-              .style = {colour::violet, 0.11, 0.5},
+              .words = "possible: alpha-cuts, the narrowest the most possible",
+              .style = {colour::orange, 0, 0.8},
               .kind = Layer::Kind::stack,
               .isProved = true,
               .levels = fuzzy.alpha};

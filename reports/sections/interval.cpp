@@ -29,7 +29,7 @@ void drawGuaranteed(const Results& results, std::size_t output, Plot& plot) {
   if (!interval.over.empty())
     plot.layers.push_back({.name = "tube",
                            .words = "guaranteed at every instant",
-                           .style = {colour::blue, 0.09},
+                           .style = {colour::grey, 0, 0.7},
                            .isProved = true,
                            .isInSpread = false,
                            .bands = {tubeOf(interval.over, output)}});
@@ -37,14 +37,14 @@ void drawGuaranteed(const Results& results, std::size_t output, Plot& plot) {
     plot.layers.push_back({.name = "direct",
                            .words = "plain intervals",
                            .readout = "plain intervals",
-                           .style = {colour::grey, 0.2, 1},
+                           .style = {colour::grey, 0, 1, true},
                            .isProved = true,
                            .bands = {bandOf(interval.direct, output)}});
   if (!interval.at.empty())
     plot.layers.push_back({.name = "guaranteed",
                            .words = plot.isOverTime() ? "guaranteed at the output times" : "guaranteed",
                            .readout = "guaranteed",
-                           .style = {colour::blue, 0.13, 1.1},
+                           .style = {colour::grey, 0, 1.5},
                            .isProved = true,
                            .bands = {bandOf(interval.at, output)}});
 }

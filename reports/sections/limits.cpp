@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "reports/sections/contribution.hpp"
 #include "reports/words.hpp"
@@ -28,10 +29,40 @@ std::string labelOf(const Results& results, const Limit& limit) {
                      inUnit(number, unit));
 }
 
+/// Where a margin that is to be above zero throughout may not be: between output times where all instants are known,
+/// else at them.
+void addMissed(const Results& results, const Limit& limit, std::vector<Span>& missed) {
+  const RequirementResult& requirement = results.requirements[limit.requirement];
+  const Bounds* bounds = bestKnown(results);
+  if (bounds == nullptr || !requirement.isAlways || requirement.word == Decision::met || results.horizon == 0) return;
+  const Bounds& over = results.interval.over;
+  const bool isOver = bounds == &results.interval.at && !over.empty();
+  for (std::size_t i = 0; i < std::min(results.time.size(), bounds->lower.times); ++i) {
+    const double until = results.time[i];
+    if (until < requirement.from || until > requirement.until) continue;
+    if (isOver && i > 0 && results.time[i - 1] >= requirement.from && over.lower(i, limit.margin) < 0)
+      missed.push_back({results.time[i - 1], until});
+    else if (bounds->lower(i, limit.margin) < 0)
+      missed.push_back({until, until});
+  }
+}
+
+/// In order, those that meet as one.
+std::vector<Span> joined(std::vector<Span> spans) {
+  std::ranges::sort(spans, {}, &Span::from);
+  std::vector<Span> all;
+  for (const Span& span : spans)
+    if (!all.empty() && span.from <= all.back().until)
+      all.back().until = std::max(all.back().until, span.until);
+    else
+      all.push_back(span);
+  return all;
+}
+
 void drawRequired(const Results& results, std::size_t output, Plot& plot) {
   Layer layer{.name = "limit",
               .words = "limit of a requirement",
-              .style = {colour::red, 0, 1.8, true},
+              .style = {colour::red, 0, 1.6},
               .kind = Layer::Kind::line,
               .isInSpread = false};
   for (const Limit& limit : limitsOf(results)) {
@@ -43,7 +74,9 @@ void drawRequired(const Results& results, std::size_t output, Plot& plot) {
         line[i] = limit.value;
     layer.bands.push_back({std::move(line), {}});
     layer.labels.push_back(labelOf(results, limit));
+    addMissed(results, limit, plot.missed);
   }
+  plot.missed = joined(std::move(plot.missed));
   if (!layer.bands.empty()) plot.layers.push_back(std::move(layer));
 }
 

@@ -44,27 +44,27 @@ void drawProbable(const Results& results, std::size_t output, Plot& plot) {
                            .words = fmt::format("estimated behind the proof, which ends at {} s: where the samples are",
                                                 numberText(*end, 4)),
                            .readout = "estimated, not proved",
-                           .style = {colour::pink, 0.16},
+                           .style = {colour::pink, 0, 1.2, true},
                            .bands = {behindProof(results, output, *end)}});
   if (hasQuantiles && low < high)
     plot.layers.push_back({.name = "probable",
                            .words = fmt::format("probable: {:g} to {:g} % of the samples", 100 * probabilities[low],
                                                 100 * probabilities[high]),
                            .readout = "probable",
-                           .style = {colour::orange, 0.2, 0.8},
+                           .style = {colour::blue, 0.3},
                            .bands = {{quantile(low), quantile(high)}}});
   if (hasQuantiles && probabilities[middle] == 0.5)
     plot.layers.push_back({.name = "median",
                            .words = "median",
                            .readout = "median",
-                           .style = {colour::orange, 0, 1.6},
+                           .style = {colour::blue, 0, 1.6},
                            .kind = Layer::Kind::line,
                            .bands = {{quantile(middle), {}}}});
   if (!stochastic.envelope.empty())
     plot.layers.push_back({.name = "sampled",
                            .words = "least and greatest sample",
                            .readout = "sampled",
-                           .style = {colour::black, 0, 1.1, true},
+                           .style = {colour::blue, 0, 1, true},
                            .bands = {bandOf(stochastic.envelope, output)}});
 }
 

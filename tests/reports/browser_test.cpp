@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <iterator>
@@ -76,42 +77,6 @@ std::string rootOf(const std::string& page) {
   return from == std::string::npos ? "" : page.substr(from, to - from);
 }
 
-TEST_F(Browser, DrawsTheForemostOutputAndEveryOutput) {
-  const std::string page = opened(example::pendulum(301, 3));
-  EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
-  EXPECT_EQ(count(page, "<canvas"), 4u);
-  EXPECT_EQ(count(page, "class=\"output plotted\""), 3u);
-  EXPECT_EQ(count(page, "class=\"output foremost plotted\""), 1u);
-}
-
-/// Above their lines, which would go through them: what draws the axes leaves another baseline behind.
-TEST_F(Browser, WritesLimitsOnTheirBaselines) {
-  Results results = example::pendulum();
-  RequirementResult& requirement = results.requirements.emplace_back();
-  requirement.name = "clearance";
-  requirement.statement = "always a > 0";
-  requirement.word = Decision::met;
-  requirement.isAlways = true;
-  requirement.margin = 1;
-  requirement.margins = 1;
-  results.margins.push_back({1, "a", true, "0 rad", "rad", true, 1, 0, true});
-  requirement.until = results.horizon;
-  requirement.violation.assign(results.uncertain.size(), std::numeric_limits<double>::quiet_NaN());
-  const std::string page =
-      opened(results,
-             "const seen = new Set(), write = CanvasRenderingContext2D.prototype.fillText;"
-             "CanvasRenderingContext2D.prototype.fillText = function (text, ...where) {"
-             "  if (text.startsWith('limit')) seen.add(this.textBaseline); write.call(this, text, ...where); };"
-             "document.body.style.width = '700px'; await laidOut(); note([...seen].join(' '));");
-  EXPECT_THAT(page, HasSubstr("<pre id=\"noted\">alphabetic</pre>"));
-}
-
-TEST_F(Browser, MakesASwitchOfEveryKeyAndView) {
-  const std::string page = opened(example::pendulum(61, 2));
-  EXPECT_EQ(count(page, "<button type=\"button\" aria-pressed="), 6u + 2u * 3u);  // layers once, three views an output
-  EXPECT_THAT(page, HasSubstr("Spread around the median"));
-}
-
 /// Text that a reader's script leaves in the page.
 std::string noted(const std::string& page) {
   const std::string begin = "<pre id=\"noted\">";
@@ -133,20 +98,145 @@ std::vector<std::string> parted(const std::string& text) {
   return parts;
 }
 
-/// Beside a hairline of a curve its spread says more, and is seen first; wide bands are seen as they are.
-TEST_F(Browser, ShowsTheSpreadFirstWhereTheBandIsThin) {
-  Results results = example::pendulum(61, 2);
-  for (Bounds* bounds :
-       {&results.interval.at, &results.interval.over, &results.stochastic.envelope, &results.fuzzy.outer[0]})
-    for (std::size_t i = 0; i < 61; ++i) {
-      bounds->lower(i, 1) -= 3;
-      bounds->upper(i, 1) += 3;
-    }
+/// What a reader does who unfolds all outputs.
+const char* const unfolded =
+    "for (const panel of document.querySelectorAll('details.panel')) panel.open = true; await laidOut(); await "
+    "laidOut();";
+
+/// What is folded away is not drawn before somebody unfolds it.
+TEST_F(Browser, DrawsTheForemostOutputAndWhatIsUnfolded) {
+  const Results results = example::pendulum(301, 3);
   const std::string page = opened(results);
-  EXPECT_THAT(page, HasSubstr("<section class=\"output plotted\" data-output=\"0\" data-view=\"spread\""));
-  EXPECT_THAT(page, HasSubstr("<section class=\"output plotted\" data-output=\"1\" data-view=\"absolute\""));
-  const std::string other = opened(results, "document.querySelectorAll('.views')[0].children[1].click();");
-  EXPECT_THAT(other, HasSubstr("data-output=\"0\" data-view=\"absolute\""));
+  EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
+  EXPECT_EQ(count(page, "<canvas"), 1u);
+  EXPECT_EQ(count(page, "class=\"output plotted\""), 3u);
+  EXPECT_EQ(count(page, "class=\"output foremost plotted\""), 1u);
+  EXPECT_EQ(count(opened(results,
+                         "document.querySelectorAll('details.panel')[1].open = true; await laidOut();"
+                         "await laidOut();"),
+                  "<canvas"),
+            2u);
+  EXPECT_EQ(count(opened(results, unfolded), "<canvas"), 4u);
+}
+
+/// Above their lines, which would go through them: what draws the axes leaves another baseline behind.
+TEST_F(Browser, WritesLimitsOnTheirBaselines) {
+  Results results = example::pendulum();
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = "clearance";
+  requirement.statement = "always a > 0";
+  requirement.word = Decision::met;
+  requirement.isAlways = true;
+  requirement.margin = 1;
+  requirement.margins = 1;
+  results.margins.push_back({1, "a", true, "0 rad", "rad", true, 1, 0, true});
+  requirement.until = results.horizon;
+  requirement.violation.assign(results.uncertain.size(), std::numeric_limits<double>::quiet_NaN());
+  const std::string page = opened(
+      results, std::string(unfolded) +
+                   "const seen = new Set(), write = CanvasRenderingContext2D.prototype.fillText;"
+                   "CanvasRenderingContext2D.prototype.fillText = function (text, ...where) {"
+                   "  if (text.startsWith('limit')) seen.add(this.textBaseline); write.call(this, text, ...where); };"
+                   "document.body.style.width = '700px'; await laidOut(); note([...seen].join(' '));");
+  EXPECT_THAT(page, HasSubstr("<pre id=\"noted\">alphabetic</pre>"));
+}
+
+TEST_F(Browser, MakesASwitchOfEveryKeyAndView) {
+  const std::string page = opened(example::pendulum(61, 2));
+  EXPECT_EQ(count(page, "<button type=\"button\" aria-pressed="), 6u + 2u * 3u);  // layers once, three views an output
+  EXPECT_THAT(page, HasSubstr("Spread around the median"));
+}
+
+/// All outputs begin with their motions; whoever asks sees a spread, with a limit where that comes near to it.
+TEST_F(Browser, ShowsTheMotionFirst) {
+  const std::string page = opened(example::pendulum(61, 2), unfolded);
+  EXPECT_EQ(count(page, "<button type=\"button\" aria-pressed=\"true\">Motion</button>"), 2u);
+  EXPECT_THAT(page, HasSubstr("<section class=\"output plotted\" data-output=\"0\" data-view=\"absolute\""));
+  const std::string other = opened(
+      example::pendulum(61, 2), std::string(unfolded) + "document.querySelectorAll('.views')[0].children[1].click();");
+  EXPECT_THAT(other, HasSubstr("data-output=\"0\" data-view=\"spread\""));
+}
+
+/// Two outputs of three times, of which the second is limited: at 5 from below, far above where it ever is.
+Results limited() {
+  Results results = example::pendulum(61, 2);
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = "ceiling";
+  requirement.statement = "always b < 5";
+  requirement.word = Decision::met;
+  requirement.margin = requirement.margins = 1;
+  requirement.until = results.horizon;
+  requirement.violation.assign(results.uncertain.size(), std::numeric_limits<double>::quiet_NaN());
+  results.margins.push_back({1, "b", false, "5 rad", "rad", true, 1, 5, true});
+  return results;
+}
+
+/// The shapes beside a plot lie on its axis: where the guaranteed ends are drawn, the plot has these values; and so
+/// they do of a spread and after a zoom. Limits are seen, however far away.
+TEST_F(Browser, SetsWhatIsKnownAtATimeBesideThePlotOnTheSameAxis) {
+  const std::string measure =
+      "const found = [], shown = () => {"
+      "  const svg = document.querySelectorAll('.listed svg.beside')[1], moment = "
+      "svg.querySelector('g.moment:not([hidden])');"
+      "  const ends = moment.querySelector('.beside-guaranteed').getBoundingClientRect();"
+      "  const plot = document.querySelectorAll('.listed .u-over')[1].getBoundingClientRect();"
+      "  found.push([moment.dataset.at, (plot.bottom - ends.bottom).toFixed(0), (plot.bottom - ends.top).toFixed(0),"
+      "    plot.height.toFixed(0), moment.dataset.low, moment.dataset.high].join(' ')); };";
+  const std::string page =
+      opened(limited(), std::string(unfolded) + measure +
+                            "shown(); document.querySelectorAll('.listed .views')[1].children[1].click();"
+                            "await laidOut(); shown(); note(found.join('|next|'));");
+  const std::vector<std::string> found = parted(noted(page));
+  ASSERT_EQ(found.size(), 2u);
+  struct Shown {
+    double at = 0, bottom = 0, top = 0, height = 0, low = 0, high = 0;
+  } motion, spread;
+  std::istringstream(found[0]) >> motion.at >> motion.bottom >> motion.top >> motion.height >> motion.low >>
+      motion.high;
+  std::istringstream(found[1]) >> spread.at >> spread.bottom >> spread.top >> spread.height >> spread.low >>
+      spread.high;
+  EXPECT_NEAR(motion.at, 1.3, 1e-9);  // where the margin is least
+  // The axis comes from the least that is guaranteed of the motion to the limit, with four percent of room.
+  const Results results = limited();
+  double low = INFINITY;
+  for (std::size_t i = 0; i < 61; ++i) low = std::min(low, results.interval.over.lower(i, 1));
+  const double width = (5 - low) * 1.08, from = low - 0.04 * (5 - low);
+  EXPECT_NEAR(motion.bottom, (motion.low - from) / width * motion.height, 2);
+  EXPECT_NEAR(motion.top, (motion.high - from) / width * motion.height, 2);
+  const Table& median = results.stochastic.quantiles[2];
+  double below = 0, above = 0;
+  for (std::size_t i = 0; i < 61; ++i) {
+    below = std::min(below, results.interval.at.lower(i, 1) - median(i, 1));
+    above = std::max(above, results.interval.at.upper(i, 1) - median(i, 1));
+  }
+  const double high = (above - below) * 1.08, foot = below - 0.04 * (above - below);
+  EXPECT_NEAR(spread.bottom, (spread.low - median(26, 1) - foot) / high * spread.height, 2);
+  EXPECT_NEAR(spread.top, (spread.high - median(26, 1) - foot) / high * spread.height, 2);
+}
+
+/// By their peaks, falling at the second click; by name; and what is searched for alone.
+TEST_F(Browser, OrdersAndSearchesTheOutputs) {
+  const std::string press =
+      "const names = () => [...document.querySelectorAll('.listed .output:not([hidden]) h3')].map("
+      "  name => name.textContent).join(',');"
+      "const press = key => document.querySelector('.heads [data-key=' + key + '] button').click();";
+  Results results = example::pendulum(61, 7);
+  for (std::size_t k = 0; k < 7; ++k)
+    for (std::size_t i = 0; i < 61; ++i)
+      results.interval.over.upper(i, k) = results.interval.at.upper(i, k) = 10.0 + (k * 3 % 7);
+  const std::string page = opened(
+      results, press +
+                   "const found = []; press('greatest'); found.push(names()); press('greatest'); found.push(names());"
+                   "press('name'); found.push(names()); const field = document.querySelector('.find input');"
+                   "field.value = 'SHOULDER'; field.dispatchEvent(new Event('input')); found.push(names());"
+                   "found.push(document.querySelector('.find output').textContent); note(found.join('|next|'));");
+  const std::vector<std::string> found = parted(noted(page));
+  ASSERT_EQ(found.size(), 5u);
+  EXPECT_EQ(found[0], "shoulder angle,load,tip speed,elbow angle,shoulder rate,energy,tip height");
+  EXPECT_EQ(found[1], "tip height,energy,shoulder rate,elbow angle,tip speed,load,shoulder angle");
+  EXPECT_EQ(found[2], "elbow angle,energy,load,shoulder angle,shoulder rate,tip height,tip speed");
+  EXPECT_EQ(found[3], "shoulder angle,shoulder rate");
+  EXPECT_EQ(found[4], "2 of 7");
 }
 
 /// Numbers of any size, some of them constant: nothing goes wrong, and every output is drawn.
@@ -163,7 +253,7 @@ TEST_F(Browser, DrawsNumbersOfAllSizes) {
   for (Table* table : tables)
     for (std::size_t i = 0; i < table->times; ++i)
       for (std::size_t k = 0; k < 5; ++k) (*table)(i, k) *= factor[k];
-  const std::string page = opened(results);
+  const std::string page = opened(results, unfolded);
   EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
   EXPECT_EQ(count(page, "<canvas"), 6u);
 }
@@ -205,7 +295,7 @@ TEST_F(Browser, DrawsWhatThereIsWhereAnalysesAreMissing) {
   results.interval = {};
   results.fuzzy = {};
   results.comparison = {};
-  const std::string page = opened(results);
+  const std::string page = opened(results, unfolded);
   EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
   EXPECT_EQ(count(page, "<canvas"), 2u);
 }
@@ -214,15 +304,16 @@ TEST_F(Browser, ShowsTextFromAStudyAsText) {
   Results results = example::pendulum(61, 1);
   results.title = results.outputs[0].name = results.outputs[0].unit =
       "</script><script>document.body.remove()</script>";
-  const std::string page = opened(results);
+  const std::string page = opened(results, unfolded);
   EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
   EXPECT_THAT(page, HasSubstr("&lt;script&gt;document.body.remove()"));
   EXPECT_EQ(count(page, "<canvas"), 2u);
 }
 
-/// What an attribute of the first element of this class is.
+/// What an attribute of the first element of this class is, in the picture of the machine.
 std::string attributeOf(const std::string& page, const std::string& element, const std::string& name) {
-  const auto begin = page.find("class=\"" + element), from = page.find(" " + name + "=\"", begin) + name.size() + 3;
+  const auto begin = page.find("class=\"" + element, page.find("<section class=\"moving\"")),
+             from = page.find(" " + name + "=\"", begin) + name.size() + 3;
   return begin == std::string::npos ? "" : page.substr(from, page.find('"', from) - from);
 }
 
@@ -316,7 +407,8 @@ TEST_F(Browser, ShowsNoNameOverAnother) {
 }
 
 TEST_F(Browser, TurnsTheMachine) {
-  const std::string turned = opened(example::machine(true), "document.querySelectorAll('.views button')[3].click();");
+  const std::string turned =
+      opened(example::machine(true), "document.querySelectorAll('.moving .views button')[3].click();");
   EXPECT_THAT(rootOf(turned), Not(HasSubstr("data-error")));
   EXPECT_THAT(turned, HasSubstr("<button type=\"button\" aria-pressed=\"true\">x\u2013y</button>"));
   const std::string start = opened(example::machine(true));

@@ -1,0 +1,107 @@
+// The list of outputs: a row each, whatever is known, with its range, when, and how its requirement stands.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "reports/report.hpp"
+#include "reports/sections/contribution.hpp"
+#include "tests/reports/example_results.hpp"
+#include "tests/reports/page_text.hpp"
+
+namespace gamut::panels {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The row of an output, its keys of order included.
+std::string rowOf(const std::string& page, std::size_t output) {
+  const auto id = page.find("id=\"output-" + std::to_string(output) + "\"");
+  const auto begin = page.rfind("<section", id), end = page.find("</summary>", id);
+  return id == std::string::npos ? "" : page.substr(begin, end - begin);
+}
+
+/// An output that is limited from above at its own middle, so that some values violate that at all times.
+Results limited() {
+  Results results = example::pendulum(61, 2);
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = "ceiling";
+  requirement.statement = "always a < 1 rad";
+  requirement.word = Decision::partly;
+  requirement.margin = 1;
+  requirement.margins = 1;
+  requirement.from = 1;
+  requirement.until = 2;
+  requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  results.margins.push_back({1, "a", false, "1 rad", "rad", true, 0, 1, true});
+  for (std::size_t i = 0; i < 61; ++i) {
+    results.interval.at.lower(i, 1) = i == 30 ? -1 : 1;
+    results.interval.over.lower(i, 1) = i == 30 || i == 31 ? -1 : 1;
+  }
+  return results;
+}
+
+TEST(Panels, HoldARowOfEachOutputThatUnfoldsWithoutAScript) {
+  const Results results = example::pendulum(61, 3);
+  const std::string page = renderReport(results);
+  EXPECT_EQ(count(page, "<details class=\"panel\"><summary class=\"row\">"), 3u);
+  EXPECT_EQ(count(page, "<svg class=\"spark\""), 3u);
+  EXPECT_THAT(rowOf(page, 1),
+              AllOf(HasSubstr("<h3>elbow angle</h3>"), HasSubstr("data-head=\"\">rad</span>"),
+                    HasSubstr("data-least=\"-"), HasSubstr("data-peak=\""), Not(HasSubstr("data-state"))));
+  EXPECT_THAT(rowOf(page, 1), HasSubstr("data-head=\"peak\">0 to 0.05 s</span>"));  // where it begins
+}
+
+TEST(Panels, TellHowTheRequirementOfAnOutputStands) {
+  Results results = limited();
+  EXPECT_THAT(rowOf(renderReport(results), 0),
+              AllOf(HasSubstr("<b class=\"state violated\">violated</b>"), HasSubstr("data-state=\"1\"")));
+  results.requirements[0].word = Decision::open;
+  EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state open\">open</b>"));
+  results.requirements[0].isViolatedInSimulation = true;
+  EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state simulated\">violated in simulation</b>"));
+  results.requirements[0].isViolatedInSimulation = false;
+  results.requirements[0].word = Decision::met;
+  EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state met\">met</b>"));
+  results.comparison.verdict = Agreement::outside;
+  EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state\"></b>"));
+}
+
+TEST(Panels, SayThatNothingIsKnown) {
+  Results results = example::pendulum(61, 1);
+  results.interval = {};
+  results.stochastic = {};
+  results.fuzzy = {};
+  results.comparison = {};
+  const std::string page = renderReport(results);
+  EXPECT_THAT(rowOf(page, 0),
+              AllOf(HasSubstr("<h3>shoulder angle</h3>"), Not(HasSubstr("data-least=")), Not(HasSubstr("nan"))));
+  EXPECT_THAT(page, HasSubstr("Nothing is known."));
+}
+
+/// Between output times where that is known; within the window; only where the requirement is not proved to be met.
+TEST(Missed, IsWhereAMarginMayBeBelowZero) {
+  Results results = limited();
+  const auto missed = [&] { return plotOf(results, 0).missed; };
+  ASSERT_EQ(missed().size(), 1u);
+  EXPECT_EQ(missed()[0].from, results.time[29]);
+  EXPECT_EQ(missed()[0].until, results.time[31]);
+  results.interval.over = {};
+  ASSERT_EQ(missed().size(), 1u);
+  EXPECT_EQ(missed()[0].from, results.time[30]);
+  EXPECT_EQ(missed()[0].until, results.time[30]);
+  results.requirements[0].from = 1.6;
+  EXPECT_TRUE(missed().empty());
+  results = limited();
+  results.requirements[0].word = Decision::met;
+  EXPECT_TRUE(missed().empty());
+  results.requirements[0].word = Decision::open;
+  results.requirements[0].isAlways = false;
+  EXPECT_TRUE(missed().empty());
+}
+
+}  // namespace
+}  // namespace gamut::panels
