@@ -265,6 +265,22 @@ std::string tone(const Results& results, const Verdict& verdict) {
 
 }  // namespace
 
+std::string shareOfSpread(const Results& results, std::size_t output, std::size_t quantity, double time) {
+  const SensitivityResult& s = results.sensitivity;
+  if (!s.present || s.total.lower.empty()) return {};
+  std::string share;
+  double nearest = INFINITY;
+  for (std::size_t i = 0; i < s.time.size(); ++i) {
+    if (!(std::abs(s.time[i] - time) < nearest)) continue;
+    const std::vector<LeadingCause> causes = causesOf(results, output, i);
+    const auto cause = std::ranges::find(causes, results.uncertain[quantity].name, &LeadingCause::name);
+    if (cause == causes.end()) continue;
+    share = cause->share;
+    nearest = std::abs(s.time[i] - time);
+  }
+  return share;
+}
+
 Plot essentialPlot(const Results& results, std::size_t output, std::optional<std::size_t> requirement) {
   return essentials(plotOf(results, output), limitsShown(results, output, requirement));
 }

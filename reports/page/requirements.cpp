@@ -198,6 +198,7 @@ std::string requirementCards(const Report& report) {
             : "");
     if (const std::optional<Worst> at = worstOf(results, requirement); at && ++shown <= drawn) {
       html += "<div class=\"seen\">" + marginBar(results, requirement, *at) + closeUp(report, r, *at) + "</div>\n";
+      if (requirement.word != Decision::met) html += whatToDo(results, at->margin, at->row, shown == 1);
     }
     html += threeAnswers(words[r]) + "</li>\n";
   }
