@@ -51,13 +51,4 @@ function(gamut_room name)
     endif()
     set_property(GLOBAL APPEND PROPERTY GAMUT_DOORS ${headers})
   endforeach()
-
-  # Every header, a user's or not, has to compile on its own: by the source of its name, which includes it first
-  # (tests/house/includes.sh), or where there is none, by the target all_verify_interface_header_sets.
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
-  list(TRANSFORM sources REPLACE "\\.cpp$" ".hpp" OUTPUT_VARIABLE proved)
-  list(REMOVE_ITEM headers ${proved})
-  add_library(gamut_${name}_headers INTERFACE)
-  target_link_libraries(gamut_${name}_headers INTERFACE gamut_${name})
-  target_sources(gamut_${name}_headers INTERFACE FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
 endfunction()
