@@ -102,6 +102,7 @@ ExitCode resume(ResumeArguments arguments) {
       throw OutputRefused(arguments.results + ": exists already, since the run was killed; expected --force");
     machine = prepare(arguments, *checkpoints, options);
     const std::string& report = arguments.report.empty() ? plan.report : arguments.report;
+    // NOLINTNEXTLINE(modernize-make-unique): it cannot be moved
     reportFile.reset(new OutputFile(reserve(report, arguments.results, arguments.force)));
   });
   return runAndKeep(*machine, std::move(options), checkpoints.get(), *resultsFile, *reportFile, arguments);

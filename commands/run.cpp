@@ -93,8 +93,10 @@ ExitCode run(RunCommandArguments arguments) {
   std::unique_ptr<OutputFile> resultsFile, reportFile;
   std::optional<CheckpointFile> checkpoints;
   onAllRanks([&] {
+    // NOLINTBEGIN(modernize-make-unique): files cannot be moved
     resultsFile.reset(new OutputFile(reserve(arguments.results, arguments.study, arguments.force)));
     reportFile.reset(new OutputFile(reserve(arguments.report, arguments.study, arguments.force)));
+    // NOLINTEND(modernize-make-unique)
     refuseToForget(arguments);
     if (arguments.interval > 0)
       checkpoints.emplace(checkpointOf(resultsFile->target()), planOf(machine.study, options, arguments), sayNote);

@@ -39,10 +39,10 @@ class RanksOfProgram : public FromOutside {
 };
 
 TEST_F(RanksOfProgram, ComeToTheSame) {
-  const Outcome alone = gamut("run s.toml --quiet -o alone.h5");
+  const Outcome alone = gamut("run s.toml --quiet --memory-limit 2 -o alone.h5");
   for (const int ranks : {1, 2, 3}) {
     SCOPED_TRACE(ranks);
-    const Outcome shared = onRanks(ranks, "run s.toml --force -o s.h5");
+    const Outcome shared = onRanks(ranks, "run s.toml --memory-limit 2 --force -o s.h5");
     EXPECT_EQ(shared.exitCode, alone.exitCode) << shared.error;
     EXPECT_THAT(differencesButCosts(results("s.h5"), results("alone.h5")), IsEmpty());
     EXPECT_NE(shared.out.find("CPU: "), std::string::npos);
@@ -64,17 +64,18 @@ TEST_F(RanksOfProgram, ComplainOnce) {
 
 /// Whichever dies, the job ends; what was remembered until then is enough to go on, with as many as one likes.
 TEST_F(RanksOfProgram, GoOnWhereOneWasKilled) {
-  const Outcome alone = gamut("run s.toml --quiet -o alone.h5");
+  const Outcome alone = gamut("run s.toml --quiet --memory-limit 2 -o alone.h5");
   const std::string name = folder_.path("s.h5"), checkpoint = name + ".checkpoint";
   int resumed = 0;
   for (int i = 0; i < 4; ++i) {
     for (const char* kind : {"", ".checkpoint"}) std::filesystem::remove(name + kind);
     std::filesystem::remove(folder_.path("s.html"));
     const std::string kill = fmt::format(
-        "(until [ -s '{0}' ]; do sleep 0.01; [ ! -s '{1}' ] || exit; done; "
+        "(for i in $(seq 3000); do [ ! -s '{0}' ] || break; sleep 0.01; [ ! -s '{1}' ] || exit; done; "
         "pkill -KILL -{2} -f -- '^{3} run .*-o {1}') & ",
         checkpoint, name, i % 2 == 0 ? "n" : "o", GAMUT_PROGRAM);
-    const Outcome killed = onRanks(3, fmt::format("run s.toml --quiet --checkpoint 0.02 -o {}", name), kill);
+    const Outcome killed =
+        onRanks(3, fmt::format("run s.toml --quiet --memory-limit 2 --checkpoint 0.02 -o {}", name), kill);
     if (!std::filesystem::exists(checkpoint)) continue;
     EXPECT_NE(killed.exitCode, 0);
     const Outcome end = i < 2 ? onRanks(2, "resume s.h5 --quiet --force") : gamut("resume s.h5 --quiet --force");
