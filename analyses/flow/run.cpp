@@ -132,6 +132,7 @@ void FlowRun::remember() {
   if (isShared_ ? isRecordDue_ : checkpoint_->isDue()) {
     gatherPieces();
     handOverCollected();
+    if (shared_->isOver()) return;  // not all of it is here
     checkpoint_->record([this](Archive& all) { archiveState(all); }, work_);
   }
 }

@@ -153,6 +153,18 @@ class PieceIntegrator {
   std::vector<double> starts_, trajectory_;
 };
 
+/// While one lives, this is shared out.
+class Sharing {
+ public:
+  Sharing(SharedWork*& place, SharedWork& shared) : place_(place) { place = &shared; }
+  ~Sharing() { place_ = nullptr; }
+  Sharing(const Sharing&) = delete;
+  Sharing& operator=(const Sharing&) = delete;
+
+ private:
+  SharedWork*& place_;
+};
+
 enum Told : int { toldBegin, toldSamples, toldRows, toldErrors, toldStatistics };
 
 /// What ranks have made of a block's pieces: of each so many samples have ended.
@@ -559,7 +571,7 @@ void EnsembleRun::integrate(SampleBlock& block, std::vector<std::size_t>& ended)
         tellPieces(*shared_, {block, pieces, mine, ended}, false, 0, [](std::size_t, bool) {});
       }
       handOverStatistics();
-      if (pause_) pause_();
+      if (pause_ && !shared_->isOver()) pause_();  // else not all of it is here
     }
   if (isSpread(block)) {
     if (!shared_->isOver() && isWhole()) return spread(block);
@@ -713,10 +725,9 @@ void EnsembleRun::integrateFirst() {
   bool isOver = false;
   do {
     SharedWork shared(options_.communicator);
-    shared_ = &shared;
+    const Sharing sharing(shared_, shared);
     integrateKept();
     isOver = shared.isOver();
-    shared_ = nullptr;
     shared.end();
   } while (isOver && !isStopped());
 }
@@ -786,12 +797,11 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
   do {
     SharedWork shared(options_.communicator);
     shared.hold([this](Archive& all) { archiveOwnTimes(all); });
-    shared_ = &shared;
+    const Sharing sharing(shared_, shared);
     shared.exchange(toldBegin, {}, {});
     if (!shared.isOver()) goOn(expected, look);
     isOver = shared.isOver();
     shared.end();
-    shared_ = nullptr;
   } while (isOver && !isStopped());
 }
 

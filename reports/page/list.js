@@ -45,9 +45,8 @@ const makeHeads = list => {
 const makeSearch = list => {
   const sections = all("section.output", list), most = 6;
   if (sections.length <= most) return;
-  const place = made("p", { className: "find" }), field = made("input", { type: "search", placeholder: "Find an output" }, place);
-  const said = made("output", {}, place);
-  field.setAttribute("aria-label", "Find an output by its name");
+  const place = made("p", { className: "find" }), name = made("label", { textContent: "Find an output" }, place);
+  const field = made("input", { type: "search" }, name), said = made("output", {}, place);
   field.addEventListener("input", () => {
     const wanted = field.value.trim().toLowerCase();
     for (const section of sections) section.hidden = !nameOf(section).toLowerCase().includes(wanted);

@@ -172,6 +172,9 @@ void checkRanks(const Machine& machine, const RunOptions& options) {
   std::string own =
       fmt::format("{}\n{}\n{}\n{}\n{}", builtBy(), processor(), study.text, study.robot, inOneText(study.tables));
   for (const Interval& component : machine.box) own += fmt::format(" {} {}", component.lower(), component.upper());
+  const Motion& motion = machine.equations();  // proofs that loops close take time, and may have ended otherwise
+  own += fmt::format("\n{} of {}, {} of {}, {}", motion.f.states(), motion.f.nodes().size(), motion.g.outputs(),
+                     motion.g.nodes().size(), fmt::join(machine.remainders, " "));
   int other = -1;
   SharedWork shared(options.communicator);
   shared.exchange(

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "studies/results/results_file.hpp"
-#include "tests/commands/long_study.hpp"
 #include "tests/commands/program.hpp"
+#include "tests/studies/long_study.hpp"
 
 namespace gamut::ranks_test {
 namespace {
@@ -71,8 +71,8 @@ TEST_F(RanksOfProgram, GoOnWhereOneWasKilled) {
     for (const char* kind : {"", ".checkpoint"}) std::filesystem::remove(name + kind);
     std::filesystem::remove(folder_.path("s.html"));
     const std::string kill = fmt::format(
-        "(for i in $(seq 3000); do [ ! -s '{0}' ] || break; sleep 0.01; [ ! -s '{1}' ] || exit; done; "
-        "pkill -KILL -{2} -f -- '^{3} run .*-o {1}') & ",
+        "{{ (for i in $(seq 3000); do [ ! -s '{0}' ] || break; sleep 0.01; [ ! -s '{1}' ] || exit; done; "
+        "pkill -KILL -{2} -f -- '^{3} run .*-o {1}') & }} && ",
         checkpoint, name, i % 2 == 0 ? "n" : "o", GAMUT_PROGRAM);
     const Outcome killed =
         onRanks(3, fmt::format("run s.toml --quiet --memory-limit 2 --checkpoint 0.02 -o {}", name), kill);
@@ -83,7 +83,7 @@ TEST_F(RanksOfProgram, GoOnWhereOneWasKilled) {
     EXPECT_THAT(differencesButCosts(results("s.h5"), results("alone.h5")), IsEmpty());
     ++resumed;
   }
-  RecordProperty("resumed", resumed);  // by luck: a run may be over before it is killed
+  EXPECT_GE(resumed, 2);
 }
 
 /// A limit of time, which each notes for itself.

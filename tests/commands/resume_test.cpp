@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "studies/results/results_file.hpp"
-#include "tests/commands/long_study.hpp"
 #include "tests/commands/program.hpp"
 #include "tests/commands/started_program.hpp"
+#include "tests/studies/long_study.hpp"
 
 namespace gamut::resume_test {
 namespace {

@@ -14,6 +14,7 @@
 #include "studies/running/run.hpp"
 #include "studies/watch.hpp"
 #include "tests/analyses/rank_threads.hpp"
+#include "tests/studies/long_study.hpp"
 #include "tests/studies/sample_study.hpp"
 
 namespace gamut::testing::ranks_test {
@@ -22,16 +23,6 @@ namespace {
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-/// Where two results differ, but for what a run costs, and when it was made.
-std::vector<std::string> differencesOf(const Results& one, const Results& other) {
-  std::vector<std::string> all = differences(one, other);
-  std::erase_if(all, [](const std::string& path) {
-    const std::string name = path.substr(path.rfind('/') + 1);
-    return name == "cpu" || name == "cut_cpu" || name == "memory" || name == "date" || path.starts_with("/study/cost");
-  });
-  return all;
-}
 
 /// The first rank's results; `options` by rank.
 template <class Options>
@@ -56,28 +47,20 @@ void expectTheSame(const std::string& text) {
       options.jobs = 1 + rank % 2;
       return options;
     });
-    EXPECT_THAT(differencesOf(shared, whole), IsEmpty()) << ranks;
+    EXPECT_THAT(differencesButCosts(shared, whole), IsEmpty()) << ranks;
   }
 }
 
-/// Many pieces, requirements left to cells, probabilities, cuts with points, a worst case, kept samples.
-std::string manyPieces() {
-  std::string text = sampleStudyWith("horizon = 0.5\noutput_step = 0.1", "horizon = 1\noutput_step = 0.02");
-  const auto replace = [&](const std::string& old, const std::string& by) {
-    text.replace(text.find(old), old.size(), by);
-  };
-  replace("± 1 %", "± 60 %");
-  replace("samples = 16", "samples = 1000\nstorage = \"0.1 MB\"");
-  return text + R"([[requirement]]
-name = "low enough"
-always = "angle < 40 deg"
-[fuzzy]
-levels = 3
-method = "extended"
-)";
-}
+std::string manyPieces() { return longStudy("1", "samples = 1000"); }
 
 TEST(RanksOfRun, ComeToTheSame) { expectTheSame(manyPieces()); }
+
+/// Samples that are followed so loosely that many leave the enclosure, and are looked at again.
+TEST(RanksOfRun, ComeToTheSameOfDisputes) {
+  const std::string text = longStudy("0.3", "samples = 600\ntolerance = { relative = 1e-4, absolute = 1e-4 }");
+  EXPECT_GT(run(readStudyText(text, "s.toml"), {}).comparison.disputed.size(), 10u);
+  expectTheSame(text);
+}
 
 TEST(RanksOfRun, ComeToTheSameOfFewSamples) { expectTheSame(sampleStudyWith("samples = 16", "samples = 16")); }
 

@@ -11,13 +11,15 @@
 namespace gamut {
 
 /// Of some turns, samples in several blocks, corners and points of cuts, and a requirement that is left to cells.
-inline std::string longStudy() {
-  std::string text = sampleStudyWith("horizon = 0.5\noutput_step = 0.1", "horizon = 2.5\noutput_step = 0.02");
+/// `horizon`: s; `samples`: what is said of them besides their plan.
+inline std::string longStudy(const std::string& horizon = "2.5", const std::string& samples = "samples = 4000") {
+  std::string text =
+      sampleStudyWith("horizon = 0.5\noutput_step = 0.1", "horizon = " + horizon + "\noutput_step = 0.02");
   const auto replace = [&](const std::string& old, const std::string& by) {
     text.replace(text.find(old), old.size(), by);
   };
   replace("± 1 %", "± 60 %");
-  replace("samples = 16", "samples = 4000\nstorage = \"0.1 MB\"");
+  replace("samples = 16", samples + "\nstorage = \"0.1 MB\"");
   return text + R"([[requirement]]
 name = "low enough"
 always = "angle < 40 deg"
