@@ -57,8 +57,11 @@ TEST(RanksOfRun, ComeToTheSame) { expectTheSame(manyPieces()); }
 
 /// Samples that are followed so loosely that many leave the enclosure, and are looked at again.
 TEST(RanksOfRun, ComeToTheSameOfDisputes) {
-  const std::string text = longStudy("0.3", "samples = 600\ntolerance = { relative = 1e-4, absolute = 1e-4 }");
-  EXPECT_GT(run(readStudyText(text, "s.toml"), {}).comparison.disputed.size(), 10u);
+  const std::string text = longStudy("0.3", "samples = 600\ntolerance = { relative = 1e-2, absolute = 1e-2 }");
+  const Results whole = run(readStudyText(text, "s.toml"), {});
+  EXPECT_TRUE(std::ranges::any_of(whole.comparison.disputed, [](const DisputedSample& sample) {
+    return sample.number >= 256 && sample.number < 600;  // of blocks of which ranks have their own packs alone
+  }));
   expectTheSame(text);
 }
 
