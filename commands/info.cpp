@@ -8,8 +8,8 @@
 #include "commands/options.hpp"
 #include "commands/robot_texts.hpp"
 #include "commands/standard_streams.hpp"
+#include "commands/summary_style.hpp"
 #include "commands/table.hpp"
-#include "reports/summary.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/robots/robot.hpp"
 
@@ -33,11 +33,10 @@ ExitCode sayRobot(const std::string& path) {
   return done;
 }
 
-ExitCode sayResults(const std::string& path) {
+ExitCode sayResults(const std::string& path, bool isVerbose) {
   const Results results = readResults(path);
-  sayOut(infoText(results));
-  if (results.comparison.present) fmt::print("  {}\n", judge(results).sentence);
-  sayOut(contentText(results));
+  const std::string verdict = results.comparison.present ? judge(results).sentence : "";
+  sayOut(shortInfo(results, verdict, summaryStyle(stdout, isVerbose)));
   return done;
 }
 
@@ -45,8 +44,10 @@ ExitCode sayResults(const std::string& path) {
 
 Action info(CLI::App& command) {
   const auto path = std::make_shared<std::string>();
+  const auto isVerbose = std::make_shared<bool>(false);
   addResultsOrRobot(command, *path);
-  return [path] { return isRobot(*path) ? sayRobot(*path) : sayResults(*path); };
+  addVerbose(command, *isVerbose);
+  return [path, isVerbose] { return isRobot(*path) ? sayRobot(*path) : sayResults(*path, *isVerbose); };
 }
 
 }  // namespace gamut::commands

@@ -41,8 +41,17 @@ std::int64_t wholeNumberIn(std::string_view text) {
   return error == std::errc() && last == text.data() + text.size() ? number : -1;
 }
 
+/// "alpha-corner 4" of "corner 4 of the alpha-cuts", as results call it, and so on.
+std::string withoutArticles(std::string name) {
+  constexpr std::string_view ofCuts = " of the alpha-cuts", sample = "sample ", the = "the ";
+  if (name.ends_with(ofCuts)) name = "alpha-" + name.substr(0, name.size() - ofCuts.size());
+  for (const std::string_view before : {sample, the})
+    if (name.starts_with(before)) name.erase(0, before.size());
+  return name;
+}
+
 std::size_t numberOf(const ReplayArguments& arguments, const StochasticResult& samples) {
-  const std::string name = fmt::format("{}", fmt::join(arguments.sample, " "));
+  const std::string name = withoutArticles(fmt::format("{}", fmt::join(arguments.sample, " ")));
   if (name == "centre") return static_cast<std::size_t>(samples.centre());
   struct Kind {
     std::string_view name;
@@ -181,7 +190,7 @@ Action replay(CLI::App& command) {
                   "points inside the cuts, extremes), or corner K, alpha-corner K, alpha-point K, extreme K (from 0), "
                   "centre; or violation NAME, of a requirement")
       ->required()
-      ->expected(1, 2)
+      ->expected(1, CLI::detail::expected_max_vector_size)
       ->type_name("SAMPLE");
   command.add_option("-o,--output", arguments->output, "Table (CSV); otherwise on standard output")
       ->type_name("SAMPLE.csv");

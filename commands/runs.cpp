@@ -19,7 +19,7 @@
 #include "commands/keeping.hpp"
 #include "commands/options.hpp"
 #include "commands/progress.hpp"
-#include "commands/verdict_lines.hpp"
+#include "commands/summary_style.hpp"
 #include "reports/json.hpp"
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
@@ -54,9 +54,10 @@ std::string nameOrNone(const std::string& file) { return file.empty() ? "none wa
 void say(const Results& results, const Verdict& verdict, const ResultFiles& files, const RunArguments& arguments) {
   std::FILE* stream = arguments.json ? stderr : stdout;
   if (!arguments.quiet) {
-    printRequirements(stream, results);
-    printVerdict(stream, verdict);
-    fmt::print(stream, "{}", textSummary(results));
+    constexpr std::size_t rowsOfFiles = 2;
+    fmt::print(
+        stream, "{}",
+        runSummary(results, verdict, leadOf(results, verdict), summaryStyle(stream, arguments.verbose, rowsOfFiles)));
     fmt::print(stream, "  results: {}\n  report:  {}\n", nameOrNone(files.results), nameOrNone(files.report));
   }
   if (arguments.json) fmt::print("{}\n", jsonSummary(results, verdict, files));
@@ -90,16 +91,21 @@ void sayNote(const std::string& line) { sayAside("note: " + line); }
 
 RunArguments::RunArguments() : jobs(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {}
 
-void addTellOptions(CLI::App& command, RunArguments& arguments) {
+void addJobs(CLI::App& command, RunArguments& arguments) {
   command.add_option("--jobs", arguments.jobs, "Threads, 1 to 1024; otherwise as many as the machine has")
       ->check(wholeNumber(1, 1024))
       ->type_name("N");
+}
+
+void addTellOptions(CLI::App& command, RunArguments& arguments) {
+  addJobs(command, arguments);
   command.add_flag("--json", arguments.json, "One JSON object on standard output, all else on standard error");
   command.add_flag("--quiet", arguments.quiet, "Neither progress nor summary");
+  addVerbose(command, arguments.verbose);
   command.add_flag("--force", arguments.force, "Overwrite existing files");
 }
 
-void addRunOptions(CLI::App& command, RunArguments& arguments) {
+void addLimitOptions(CLI::App& command, RunArguments& arguments) {
   command
       .add_option("--time-limit", arguments.timeLimit,
                   "CPU time for the whole run, s or \"2 h\", instead of the study's (otherwise 1800)")
@@ -111,6 +117,10 @@ void addRunOptions(CLI::App& command, RunArguments& arguments) {
                   "machine's)")
       ->transform(positiveAmount({0, 0, 0, 0, 1}, "memory", "2, \"2 GB\" or \"500 MiB\""))
       ->type_name("GB");
+}
+
+void addRunOptions(CLI::App& command, RunArguments& arguments) {
+  addLimitOptions(command, arguments);
   addTellOptions(command, arguments);
 }
 

@@ -19,10 +19,13 @@ struct RunArguments {
 
   int jobs;                                      ///< as many as the machine has
   std::optional<double> timeLimit, memoryLimit;  ///< s of CPU; GB
-  bool json = false, quiet = false, force = false;
+  bool json = false, quiet = false, verbose = false, force = false;
 };
 
 void addRunOptions(CLI::App& command, RunArguments& arguments);
+/// Of these, time and memory.
+void addLimitOptions(CLI::App& command, RunArguments& arguments);
+void addJobs(CLI::App& command, RunArguments& arguments);
 /// Of these, what changes nothing of what is found.
 void addTellOptions(CLI::App& command, RunArguments& arguments);
 /// What of the sampling plan is instead of the study's.

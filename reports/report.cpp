@@ -8,6 +8,7 @@
 #include "reports/page/page.hpp"
 #include "reports/page/parts.hpp"
 #include "reports/page/skeleton.hpp"
+#include "reports/plain.hpp"
 #include "reports/words.hpp"
 #include "studies/atomic_file.hpp"
 
@@ -96,6 +97,10 @@ std::string renderReport(const Results& results, const Verdict& verdict) {
     std::string page = rendered(results, verdict, detailOf(results, level));
     if (page.size() < largestPage || level == levels) return page;
   }
+}
+
+std::string leadOf(const Results& results, const Verdict& verdict) {
+  return plainSummary(results, verdict, foremostOutput(results));
 }
 
 void writeReport(const Results& results, const std::string& path) { replaceFile(path, renderReport(results)); }

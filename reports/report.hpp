@@ -15,6 +15,9 @@ struct Verdict;
 std::string renderReport(const Results& results, const Verdict& verdict);
 std::string renderReport(const Results& results);
 
+/// The sentences that lead the page.
+std::string leadOf(const Results& results, const Verdict& verdict);
+
 /// Renders and writes the page: beside its place first, then renamed into it, so that nobody sees half a page.
 /// Throws std::runtime_error, naming the path, if it cannot be written.
 void writeReport(const Results& results, const std::string& path);

@@ -182,13 +182,6 @@ std::string missText(const Results& results, const RequirementResult& requiremen
   return text;
 }
 
-/// "All 3 requirements are", "The requirement is".
-std::string allOf(std::size_t count) {
-  return count == 1   ? "The requirement is"
-         : count == 2 ? "Both requirements are"
-                      : fmt::format("All {} requirements are", count);
-}
-
 bool isViolated(const RequirementResult& requirement) {
   return requirement.word == Decision::violated || requirement.word == Decision::partly;
 }
@@ -237,6 +230,12 @@ std::vector<RequirementWords> wordsOfRequirements(const Results& results) {
   return words;
 }
 
+std::string stateOf(const RequirementResult& requirement) {
+  return requirement.isViolatedInSimulation     ? "violated in simulation"
+         : requirement.word == Decision::partly ? "violated"
+                                                : std::string(wordOf(requirement.word));
+}
+
 int severityOf(const RequirementResult& requirement) {
   return requirement.word == Decision::violated ? 0
          : requirement.word == Decision::partly ? 1
@@ -269,32 +268,10 @@ Decision wordOfRequirements(const Results& results) {
              : Decision::open;
 }
 
-std::string sentenceOfRequirements(const Results& results) {
-  const std::size_t count = results.requirements.size();
-  if (count == 0) return {};
-  const auto number = [&](auto is) {
-    return static_cast<std::size_t>(std::ranges::count_if(results.requirements, is));
-  };
-  const std::size_t met = number([](const RequirementResult&r) { return r.word == Decision::met; }),
-                    violated = number(isViolated),
-                    certainly = number([](const RequirementResult&r) { return r.word == Decision::violated; }),
-                    simulated = number([](const RequirementResult&r) { return r.isViolatedInSimulation; });
-  if (met == count) return allOf(count) + " met, whatever the uncertain quantities are.";
-  std::vector<std::string> parts;
-  const auto add = [&](std::size_t some, const char* what) {
-    if (some == 0) return;
-    parts.push_back(some == count ? allOf(count) + what : fmt::format("{} {}{}", some, some == 1 ? "is" : "are", what));
-  };
-  add(certainly, " violated for all values");
-  add(violated - certainly, " violated for some values at least");
-  add(simulated, " violated in simulation, not proved");
-  add(count - met - violated - simulated, " neither proved nor refuted");
-  add(met, " met for all values");
-  if (parts.size() == 1) return parts.front() + ".";
-  const std::string last = std::move(parts.back());
-  parts.pop_back();
-  return fmt::format("Of {} requirements, {}{} and {}.", count, fmt::join(parts, ", "), parts.size() > 1 ? "," : "",
-                     last);
+std::string shrinkSentence(const RequirementResult& requirement) {
+  return requirement.factor > 0 && requirement.word != Decision::met
+             ? fmt::format(" It is met in every case if all tolerances shrink to {}.", percentText(requirement.factor))
+             : "";
 }
 
 }  // namespace gamut

@@ -20,6 +20,9 @@ struct RequirementWords {
 /// One a requirement.
 std::vector<RequirementWords> wordsOfRequirements(const Results& results);
 
+/// The first word of its card: "met", "violated", "violated in simulation", "open".
+std::string stateOf(const RequirementResult& requirement);
+
 /// How bad what is known of one is, 0 the worst: violated, violated for some values, violated in simulation, open, met.
 int severityOf(const RequirementResult& requirement);
 
@@ -44,8 +47,9 @@ std::string estimateOf(const RequirementResult& requirement);
 /// What they are together: met if all are, violated if one is, for some values at least, otherwise open.
 Decision wordOfRequirements(const Results& results);
 
-/// One sentence about all of them; empty without requirements.
-std::string sentenceOfRequirements(const Results& results);
+/// " It is met in every case if all tolerances shrink to 58.3 %."; empty of one that is met, or where nothing is known
+/// of it.
+std::string shrinkSentence(const RequirementResult& requirement);
 
 /// "0.0694 to 0.0773", "0.002 at most": the probability that it is violated, proved, rounded outward.
 std::string violationProbability(const RequirementResult& requirement);

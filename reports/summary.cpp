@@ -6,8 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "reports/approaches.hpp"
+#include "reports/plain.hpp"
+#include "reports/requirements.hpp"
 #include "reports/text_table.hpp"
 #include "scalars/interval.hpp"
 #include "studies/results/extremes.hpp"
@@ -201,6 +205,216 @@ std::string spentText(const Results& results) {
                      results.memory / 1e9, results.limits.memory / 1e9);
 }
 
+/// Every output at the last time reached, and how much wider than the samples the enclosure is at most.
+std::string lastText(const Results& results) {
+  const std::size_t row = lastRow(results);
+  std::vector<std::vector<std::string>> rows{
+      {results.horizon > 0 ? fmt::format("at {} s", results.time[row]) : "output",
+       results.interval.at.empty() && !results.fuzzy.outer.empty() ? "widest alpha-cut" : "enclosure", "envelope",
+       "overestimation (max)"}};
+  for (std::size_t j = 0; j < results.outputs.size(); ++j) {
+    const std::string name = toldName(results, j, row);
+    if (name.empty()) continue;
+    const bool known = j < results.comparison.maximumOf.size() && std::isfinite(results.comparison.maximumOf[j]);
+    rows.push_back({headingOf(name, results.outputs[j].unit), shortBounds(results, provedBounds(results), row, j),
+                    shortBounds(results, results.stochastic.envelope, row, j),
+                    known ? timesText(results.comparison.maximumOf[j]) : "-"});
+  }
+  return textTable(rows);
+}
+
+std::string approachesText(const Results& results) {
+  std::string text;
+  for (const std::string& line : approachLines(results, approachesOf(results)))
+    text += fmt::format("  closest approach: {}\n", line);
+  return text;
+}
+
+/// How the quantities hang together, and the machine.
+std::string assemblyText(const Results& results) {
+  std::string text;
+  if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
+  if (!results.assembly.empty()) text += fmt::format("  assembled at the nominal start: {}\n", results.assembly);
+  return text;
+}
+
+std::string assumptionsText(const Results& results) {
+  return results.assumptions.empty() ? "" : fmt::format("  assumed, not proved: {}\n", results.assumptions);
+}
+
+/// How closely the answers are known.
+std::string doubtsText(const Results& results) {
+  return statisticsText(results) + transformationText(results) +
+         (results.distribution.present ? probabilitiesText(results) : "");
+}
+
+/// What analyses beside the answers have found.
+std::string furtherText(const Results& results) {
+  std::string text;
+  for (const Boxed<FurtherPart>& part : results.further) {
+    if (!part->present) continue;
+    text += fmt::format("  {}: {}{}{}\n", part->title(), part->verb(),
+                        results.horizon > 0 ? " up to " + reachedText(part->reached) : "",
+                        part->why.empty() ? "" : ": " + part->why);
+    for (const std::string& line : part->told()) text += fmt::format("    {}\n", line);
+  }
+  return text;
+}
+
+/// What each analysis took; empty where none was done.
+std::string costsText(const Results& results) {
+  std::vector<std::string> costs;
+  bool isAnything = false;
+  const auto spend = [&](const std::string& what, double cpu) {
+    isAnything = true;
+    if (cpu >= leastCpuTold) costs.push_back(fmt::format("{} {}", what, cpuText(cpu)));
+  };
+  for (const Part* part : results.parts())
+    if (part->present) spend(part->title(), part->spent());
+  for (const CostInfo& cost : results.costs) spend(cost.what, cost.cpu);
+  const std::string spent = spentText(results);
+  if (!isAnything || (costs.empty() && spent.empty())) return {};
+  return fmt::format("  CPU: {}{}{}\n", fmt::join(costs, ", "), costs.empty() || spent.empty() ? "" : "; ", spent);
+}
+
+// ---- The summary of a run -------------------------------------------------------------------------------------------
+
+/// Rows that are shown together or not at all.
+using Item = std::vector<std::string>;
+
+/// What belongs together, the most important items first.
+struct SummaryPart {
+  std::vector<Item> items;
+  std::size_t least = 0;  ///< rows of it that come before the rest of other parts
+};
+
+class SummaryParts {
+ public:
+  explicit SummaryParts(std::size_t columns) : columns_(columns) {}
+
+  /// A sentence, or several; nothing of an empty one.
+  void add(const std::string& sentence, std::size_t indent = 0) {
+    if (!sentence.empty()) all.back().items.push_back(wrapped(sentence, indent, columns_));
+  }
+  /// Each line an item.
+  void addLines(std::string_view text) {
+    for (const std::string& line : linesOf(text)) {
+      const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+      add(line.substr(indent), indent);
+    }
+  }
+  /// Each row an item; the heading stands by none alone.
+  void addTable(std::string_view text) {
+    std::vector<std::string> rows = linesOf(text);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (i == 1)
+        all.back().items.back().push_back(std::move(rows[i]));
+      else
+        all.back().items.push_back({std::move(rows[i])});
+  }
+  void begin(std::size_t least) { all.push_back({{}, least}); }
+
+  std::vector<SummaryPart> all;
+
+ private:
+  static std::vector<std::string> linesOf(std::string_view text) {
+    std::vector<std::string> lines;
+    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+      end = std::min(text.find('\n', begin), text.size());
+      lines.emplace_back(text.substr(begin, end - begin));
+    }
+    return lines;
+  }
+
+  const std::size_t columns_;
+};
+
+/// How many items of each part are shown in so many rows: first of each part what it keeps in any case, then what room
+/// is left for, both in order.
+std::vector<std::size_t> itemsShown(const std::vector<SummaryPart>& parts, std::size_t rows) {
+  std::vector<std::size_t> shown(parts.size(), 0);
+  std::size_t used = 0;
+  for (const bool isFirst : {true, false})
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      std::size_t ofPart = 0;
+      for (std::size_t i = 0; i < shown[p]; ++i) ofPart += parts[p].items[i].size();
+      for (; shown[p] < parts[p].items.size(); ++shown[p]) {
+        const std::size_t more = parts[p].items[shown[p]].size();
+        const bool isEnough = isFirst && ofPart >= parts[p].least, isLead = p == 0 && shown[p] == 0;
+        if (isEnough || (used + more > rows && !isLead)) break;
+        used += more;
+        ofPart += more;
+      }
+    }
+  return shown;
+}
+
+std::size_t rowsOf(const std::vector<SummaryPart>& parts) {
+  std::size_t rows = 0;
+  for (const SummaryPart& part : parts)
+    for (const Item& item : part.items) rows += item.size();
+  return rows;
+}
+
+std::string textOf(const std::vector<SummaryPart>& parts, const std::vector<std::size_t>& shown) {
+  std::string text;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (std::size_t i = 0; i < shown[p]; ++i)
+      for (const std::string& row : parts[p].items[i]) text += row + "\n";
+  return text;
+}
+
+/// All of it, or in `style.rows` rows at most what is most important, and how much more there is.
+std::string fitted(const SummaryParts& parts, const SummaryStyle& style) {
+  const std::size_t all = rowsOf(parts.all);
+  const bool isWhole = style.isVerbose || all <= style.rows;
+  const std::vector<std::size_t> shown = itemsShown(parts.all, isWhole ? all : style.rows - 1);
+  std::string text = textOf(parts.all, shown);
+  if (isWhole) return text;
+  const auto left = static_cast<long long>(all) - std::ranges::count(text, '\n');
+  return text + fmt::format("  {}: --verbose\n", countText(left, "more line"));
+}
+
+/// Each requirement in the sentence of its card on the page, the worst first; where much is told its answers below it.
+void addRequirements(const Results& results, const Verdict& verdict, const SummaryStyle& style, SummaryParts& parts) {
+  const std::vector<RequirementWords> words = wordsOfRequirements(results);
+  const std::vector<std::string> sentences = plainRequirements(results);
+  for (const std::size_t r : shownRequirements(results)) {
+    const RequirementWords& of = words[r];
+    const bool isNamed = !of.demand.ends_with(of.name);  // else by itself
+    if (verdict.word == Agreement::outside) {
+      parts.add("contradicted  " + of.name, 2);
+      continue;
+    }
+    parts.add(fmt::format("{:<8}  {}{}{}", stateOf(results.requirements[r]), isNamed ? of.name + ": " : "",
+                          sentences[r], shrinkSentence(results.requirements[r])),
+              2);
+    if (!style.isVerbose) continue;
+    const auto addAnswer = [&](const char* title, const std::string& text) {
+      if (!text.empty()) parts.add(fmt::format("{:<11} {}", title, text), 4);
+    };
+    addAnswer("demanded", of.demand);
+    addAnswer("guaranteed", of.guaranteed);
+    addAnswer("probable", of.probable);
+    addAnswer("estimated", of.estimated);
+    addAnswer("possible", of.possible);
+  }
+  parts.add(unshownRequirements(results), 2);
+}
+
+/// What leads, the requirements, and the verdict with its notes.
+void addAnswers(const Results& results, const Verdict& verdict, const std::string& lead, const SummaryStyle& style,
+                SummaryParts& parts) {
+  parts.begin(1);
+  parts.add(lead);
+  parts.begin(7);
+  addRequirements(results, verdict, style, parts);
+  parts.begin(1);
+  parts.add(verdict.sentence);
+  parts.begin(2);
+  for (const std::string& note : verdict.notes) parts.add(note, 2);
+}
+
 }  // namespace
 
 std::string shapeText(const Results& results, const UncertainInfo& uncertain, ShapeKind shape) {
@@ -262,48 +476,37 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, Sh
 }
 
 std::string textSummary(const Results& results) {
-  const std::size_t row = lastRow(results);
-  std::vector<std::vector<std::string>> rows{
-      {results.horizon > 0 ? fmt::format("at {} s", results.time[row]) : "output",
-       results.interval.at.empty() && !results.fuzzy.outer.empty() ? "widest alpha-cut" : "enclosure", "envelope",
-       "overestimation (max)"}};
-  for (std::size_t j = 0; j < results.outputs.size(); ++j) {
-    const std::string name = toldName(results, j, row);
-    if (name.empty()) continue;
-    const bool known = j < results.comparison.maximumOf.size() && std::isfinite(results.comparison.maximumOf[j]);
-    rows.push_back({headingOf(name, results.outputs[j].unit), shortBounds(results, provedBounds(results), row, j),
-                    shortBounds(results, results.stochastic.envelope, row, j),
-                    known ? timesText(results.comparison.maximumOf[j]) : "-"});
-  }
-  std::string text = rangesText(results) + textTable(rows);
-  std::vector<std::string> costs;
-  bool isAnything = false;
-  const auto spend = [&](const std::string& what, double cpu) {
-    isAnything = true;
-    if (cpu >= leastCpuTold) costs.push_back(fmt::format("{} {}", what, cpuText(cpu)));
+  return rangesText(results) + lastText(results) + approachesText(results) + assemblyText(results) +
+         assumptionsText(results) + doubtsText(results) + furtherText(results) + costsText(results);
+}
+
+std::string runSummary(const Results& results, const Verdict& verdict, const std::string& lead,
+                       const SummaryStyle& style) {
+  SummaryParts parts(style.columns);
+  addAnswers(results, verdict, lead, style, parts);
+  const auto addLines = [&](std::size_t least, const std::string& text) {
+    parts.begin(least);
+    parts.addLines(text);
   };
-  for (const Part* part : results.parts())
-    if (part->present) spend(part->title(), part->spent());
-  for (const CostInfo& cost : results.costs) spend(cost.what, cost.cpu);
-  for (const std::string& line : approachLines(results, approachesOf(results)))
-    text += fmt::format("  closest approach: {}\n", line);
-  if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
-  if (!results.assembly.empty()) text += fmt::format("  assembled at the nominal start: {}\n", results.assembly);
-  if (!results.assumptions.empty()) text += fmt::format("  assumed, not proved: {}\n", results.assumptions);
-  text += statisticsText(results);
-  text += transformationText(results);
-  if (results.distribution.present) text += probabilitiesText(results);
-  for (const Boxed<FurtherPart>& part : results.further) {
-    if (!part->present) continue;
-    text += fmt::format("  {}: {}{}{}\n", part->title(), part->verb(),
-                        results.horizon > 0 ? " up to " + reachedText(part->reached) : "",
-                        part->why.empty() ? "" : ": " + part->why);
-    for (const std::string& line : part->told()) text += fmt::format("    {}\n", line);
-  }
-  const std::string spent = spentText(results);
-  if (!isAnything || (costs.empty() && spent.empty())) return text;
-  return text +
-         fmt::format("  CPU: {}{}{}\n", fmt::join(costs, ", "), costs.empty() || spent.empty() ? "" : "; ", spent);
+  const auto addTable = [&](std::size_t least, const std::string& text) {
+    parts.begin(least);
+    parts.addTable(text);
+  };
+  addLines(1, assumptionsText(results));
+  addTable(5, rangesText(results));
+  addLines(2, approachesText(results));
+  addLines(3, furtherText(results));
+  addTable(results.horizon > 0 ? 0 : 5, lastText(results));
+  addLines(0, assemblyText(results) + doubtsText(results));
+  addLines(0, costsText(results));
+  return fitted(parts, style);
+}
+
+std::string verdictSummary(const Results& results, const Verdict& verdict, const std::string& lead,
+                           const SummaryStyle& style) {
+  SummaryParts parts(style.columns);
+  addAnswers(results, verdict, lead, style, parts);
+  return fitted(parts, style);
 }
 
 std::string infoText(const Results& results) {
@@ -335,6 +538,17 @@ std::string infoText(const Results& results) {
     text += fmt::format("{} CPU; {}\n", cpuText(answer->cpu), answer->amount());
   }
   return text;
+}
+
+std::string shortInfo(const Results& results, const std::string& verdict, const SummaryStyle& style) {
+  SummaryParts parts(style.columns);
+  parts.begin(1);
+  parts.addLines(infoText(results));
+  parts.begin(2);
+  parts.add(verdict, 2);
+  parts.begin(0);
+  parts.addLines(contentText(results));
+  return fitted(parts, style);
 }
 
 std::string contentText(const Results& results) {

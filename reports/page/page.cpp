@@ -151,7 +151,7 @@ std::string provenanceSection(const Report& report) {
   table.row("Gamut", {results.version});
   table.row("study file", {results.studyFile});
   table.row("computed", {results.date});
-  table.row("machine", {results.host});
+  table.row("computer", {results.host});
   table.row("seed", {fmt::format("{}", results.seed)});
   std::string libraries;
   for (const auto& [name, version] : results.libraries)

@@ -153,13 +153,6 @@ std::string threeAnswers(const RequirementWords& words) {
       answer("possible", words.possible));
 }
 
-/// The first word of a card.
-std::string stateOf(const RequirementResult& requirement) {
-  return requirement.isViolatedInSimulation     ? "violated in simulation"
-         : requirement.word == Decision::partly ? "violated"
-                                                : std::string(wordOf(requirement.word));
-}
-
 }  // namespace
 
 std::optional<OutputState> stateOfOutput(const Results& results, std::size_t output) {
@@ -190,12 +183,9 @@ std::string requirementCards(const Report& report) {
       html += fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name));
       continue;
     }
-    html += fmt::format(
-        "<li class=\"{}\" id=\"requirement-{}\"><b>{}</b> <span>{}</span> {}{}\n", words[r].word, r + 1,
-        stateOf(requirement), escapeHtml(words[r].name), escapeHtml(sentences[r]),
-        requirement.factor > 0 && requirement.word != Decision::met
-            ? fmt::format(" It is met in every case if all tolerances shrink to {}.", percentText(requirement.factor))
-            : "");
+    html += fmt::format("<li class=\"{}\" id=\"requirement-{}\"><b>{}</b> <span>{}</span> {}{}\n", words[r].word, r + 1,
+                        stateOf(requirement), escapeHtml(words[r].name), escapeHtml(sentences[r]),
+                        shrinkSentence(requirement));
     if (const std::optional<Worst> at = worstOf(results, requirement); at && ++shown <= drawn) {
       html += "<div class=\"seen\">" + marginBar(results, requirement, *at) + closeUp(report, r, *at) + "</div>\n";
       if (requirement.word != Decision::met) html += whatToDo(results, at->margin, at->row, shown == 1);

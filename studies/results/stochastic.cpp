@@ -155,8 +155,9 @@ std::string StochasticResult::nameOf(std::int64_t number) const {
   if (!present || corner < 0 || number >= planned()) return fmt::format("sample {}", number);
   if (number == centre()) return "the centre";
   if (number >= firstExtreme()) return fmt::format("extreme {}", number - firstExtreme());
-  if (number > centre()) return fmt::format("alpha-point {}", number - centre() - 1);
-  return corner < corners ? fmt::format("corner {}", corner) : fmt::format("alpha-corner {}", corner - corners);
+  if (number > centre()) return fmt::format("point {} of the alpha-cuts", number - centre() - 1);
+  return corner < corners ? fmt::format("corner {}", corner)
+                          : fmt::format("corner {} of the alpha-cuts", corner - corners);
 }
 
 std::string StochasticResult::title() const {
@@ -171,7 +172,7 @@ std::string StochasticResult::amount() const {
                                      : "";
   return fmt::format("plan {}, {}{}{}{}", wordOf(plan),
                      countText(corners + alphaCorners, "corner") +
-                         (alphaPoints > 0 ? ", " + countText(alphaPoints, "alpha-point") : "") +
+                         (alphaPoints > 0 ? ", " + countText(alphaPoints, "point") + " of alpha-cuts" : "") +
                          (extremes.number.empty() ? "" : ", " + countText(planned() - firstExtreme(), "extreme")),
                      tolerances, stopped.empty() ? "" : "; not all were taken: " + stopped,
                      kept.present ? "; in the results: " + kept.text() : "");

@@ -71,9 +71,9 @@ struct StochasticResult final : Answer {
   std::int64_t firstExtreme() const { return centre() + 1 + alphaPoints; }
   std::int64_t centre() const { return samples + corners + alphaCorners; }
 
-  /// "sample 17", "corner 3", "alpha-corner 3", "the centre", "alpha-point 3", "extreme 3", as `gamut replay` knows it:
-  /// the plan's samples come first, then the corners of the box, those of the alpha-cuts, the centre, the points of the
-  /// transformation, and the extremes.
+  /// "sample 17", "corner 3", "corner 3 of the alpha-cuts", "the centre", "point 3 of the alpha-cuts", "extreme 3", as
+  /// `gamut replay` knows it: the plan's samples come first, then the corners of the box, those of the alpha-cuts, the
+  /// centre, the points of the transformation, and the extremes.
   std::string nameOf(std::int64_t number) const;
 
   Placement plan = Placement::sobol;

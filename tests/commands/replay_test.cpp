@@ -82,6 +82,9 @@ TEST_F(ReplayCommand, KnowsCornersAndTheCentreByName) {
   EXPECT_EQ(gamut("replay s.h5 centre").out, byNumber(centre));
   EXPECT_EQ(results.stochastic.alphaPoints, 11);  // that looked for turns
   EXPECT_EQ(gamut("replay s.h5 alpha-point 10").out, byNumber(centre + 11));
+  EXPECT_EQ(gamut("replay s.h5 point 10 of the alpha-cuts").out, byNumber(centre + 11));
+  for (const std::int64_t number : {std::int64_t{5}, corners + 1, alphaCorners + 4, centre, centre + 11})
+    EXPECT_EQ(gamut("replay s.h5 " + results.stochastic.nameOf(number)).out, byNumber(number)) << number;
   EXPECT_NE(byNumber(centre + 11), byNumber(centre + 10));
   EXPECT_NE(byNumber(corners), byNumber(corners + 1));
 }

@@ -12,6 +12,7 @@
 namespace gamut {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
@@ -59,7 +60,8 @@ TEST_F(RobotCommands, NewWritesAStudyThatRunsAndRefersToTheFile) {
     EXPECT_THAT(study, HasSubstr(line));
   const Outcome run = gamut("run studies/arm.toml --samples 64 --jobs 2 -o arm.h5 --report arm.html");
   EXPECT_EQ(run.exitCode, 0) << run.error;
-  EXPECT_THAT(run.out, StartsWith("All "));
+  EXPECT_THAT(run.out,
+              AllOf(StartsWith("“energy” stays between "), HasSubstr("\nAll 244 sampled motions stay inside")));
   std::filesystem::remove(folder_.path("robots/r.urdf"));
   EXPECT_EQ(gamut("replay arm.h5 0").exitCode, 0) << "the results hold the robot";
   expectRefused("validate studies/arm.toml",

@@ -5,12 +5,18 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "mechanics/description/units.hpp"
+#include "reports/plain.hpp"
+#include "reports/requirements.hpp"
 #include "scalars/interval.hpp"
 #include "tests/studies/sample_results.hpp"
 
@@ -461,6 +467,120 @@ TEST(KeptSamples, SayOfHowMany) {
   EXPECT_EQ(kept.text(), "values of all, motions of one in 18");
   kept.valuesEvery = kept.motionsEvery = 0;
   EXPECT_EQ(kept.text(), "values of none, motions of none");
+}
+
+// ---- The summary of a run -------------------------------------------------------------------------------------------
+
+std::size_t rowsOf(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+std::string ranSummary(const Results& results, const SummaryStyle& style = {}) {
+  return runSummary(results, judge(results), "Lead.", style);
+}
+
+/// So many requirements, each violated but the last.
+Results withRequirements(std::size_t count) {
+  Results results = sampleResults();
+  results.requirements.resize(count, results.requirements.front());
+  for (std::size_t r = 0; r < count; ++r) {
+    results.requirements[r].name = "requirement " + std::to_string(r);
+    results.requirements[r].word = r + 1 < count ? Decision::partly : Decision::met;
+    results.requirements[r].isViolatedInSimulation = false;
+  }
+  return results;
+}
+
+TEST(RunSummary, HasTwentyRowsAtMostAndSaysHowManyThereAre) {
+  const Results results = withRequirements(30);
+  SummaryStyle style;
+  const std::string text = ranSummary(results, style);
+  EXPECT_EQ(rowsOf(text), 20U) << text;
+  style.isVerbose = true;
+  const std::size_t all = rowsOf(ranSummary(results, style));
+  EXPECT_GT(all, 100U);
+  EXPECT_THAT(text, ::testing::EndsWith(fmt::format("\n  {} more lines: --verbose\n", all - 19)));
+  for (style = {}; style.rows > 2; --style.rows) EXPECT_EQ(rowsOf(ranSummary(results, style)), style.rows);
+}
+
+TEST(RunSummary, SaysAllWhereThereIsRoom) {
+  const Results results = sampleResults();
+  SummaryStyle verbose, roomy;
+  verbose.isVerbose = true;
+  roomy.rows = 1000;
+  EXPECT_THAT(ranSummary(results, roomy), Not(HasSubstr("--verbose")));
+  roomy.rows = rowsOf(ranSummary(results, roomy));
+  EXPECT_THAT(ranSummary(results, roomy), Not(HasSubstr("--verbose")));
+  --roomy.rows;
+  EXPECT_THAT(ranSummary(results, roomy), HasSubstr("  2 more lines: --verbose\n"));
+  for (const char* answer : {"    demanded    ", "    guaranteed  ", "    probable    ", "    possible    "}) {
+    EXPECT_THAT(ranSummary(results, verbose), HasSubstr(answer));
+    EXPECT_THAT(ranSummary(results), Not(HasSubstr(answer)));
+  }
+}
+
+TEST(RunSummary, BeginsWithTheLeadAndTheWorstRequirementAndKeepsTheVerdict) {
+  Results results = withRequirements(12);
+  const std::string sentence = judge(results).sentence;
+  std::swap(results.requirements.front(), results.requirements.back());
+  const std::string text = ranSummary(results);
+  EXPECT_THAT(text, ::testing::StartsWith("Lead.\n  violated  requirement "));
+  EXPECT_THAT(text, HasSubstr("\n" + sentence + "\n"));
+  EXPECT_LT(text.find("  violated  requirement 1: "), text.find(sentence));
+  EXPECT_THAT(text, HasSubstr("\n  output"));  // of tables at least a part
+}
+
+TEST(RunSummary, SaysOfEachRequirementWhatItsCardDoes) {
+  const Results results = withRequirements(2);
+  const std::vector<std::string> sentences = plainRequirements(results);
+  const std::string text = ranSummary(results);
+  EXPECT_THAT(
+      text, HasSubstr("\n  violated  requirement 0: " + sentences[0] + shrinkSentence(results.requirements[0]) + "\n"));
+  EXPECT_THAT(text, HasSubstr("\n  met       requirement 1: " + sentences[1] + "\n"));
+}
+
+TEST(RunSummary, LeavesNoHeadingAlone) {
+  const Results results = sampleResults();
+  for (SummaryStyle style; style.rows > 2; --style.rows) {
+    const std::string text = ranSummary(results, style);
+    const std::size_t cut = text.find(" more line");
+    if (cut == std::string::npos) continue;
+    const std::size_t before = text.rfind('\n', cut), last = text.rfind('\n', before - 1);
+    EXPECT_EQ(text.substr(last, before - last).find("overestimation"), std::string::npos) << text;
+  }
+}
+
+TEST(RunSummary, WrapsSentencesOnATerminal) {
+  const Results results = withRequirements(5);
+  for (const std::size_t columns : {40U, 80U, 200U}) {
+    SummaryStyle style;
+    style.columns = columns;
+    const std::string text = verdictSummary(results, judge(results), "Lead.", style);
+    EXPECT_LE(rowsOf(text), 20U) << text;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(line.size(), columns + 12) << line;  // “ and ” are bytes
+  }
+}
+
+TEST(RunSummary, OfContradictingResultsTrustsNoRequirement) {
+  Results results = withRequirements(2);
+  Verdict verdict = judge(results);
+  verdict.word = Agreement::outside;
+  const std::string text = runSummary(results, verdict, "", {});
+  EXPECT_THAT(text, HasSubstr("  contradicted  requirement 0\n"));
+  EXPECT_THAT(text, Not(HasSubstr("In some cases")));
+}
+
+TEST(ShortInfo, SaysHowMuchMoreThereIs) {
+  const Results results = sampleResults();
+  SummaryStyle style;
+  const std::string text = shortInfo(results, "Verdict.", style);
+  EXPECT_EQ(rowsOf(text), 20U);
+  EXPECT_THAT(text, ::testing::StartsWith(results.title + "\n"));
+  EXPECT_THAT(text, HasSubstr("\n  Verdict.\n"));
+  style.isVerbose = true;
+  EXPECT_EQ(shortInfo(results, "Verdict.", style), infoText(results) + "  Verdict.\n" + contentText(results));
 }
 
 }  // namespace

@@ -273,7 +273,7 @@ TEST(Run, ReachesExtremesInsideAlphaCutsByTheTransformationMethod) {
   EXPECT_GT(gap(0), gap(1) + 0.05);
   EXPECT_EQ(found[0].stochastic.alphaPoints, 0);
   EXPECT_EQ(found[2].stochastic.alphaPoints, 506);
-  EXPECT_EQ(found[1].stochastic.nameOf(found[1].stochastic.centre() + 3), "alpha-point 2");
+  EXPECT_EQ(found[1].stochastic.nameOf(found[1].stochastic.centre() + 3), "point 2 of the alpha-cuts");
   const std::vector<double>& turns = found[1].fuzzy.transformation.turns;
   ASSERT_EQ(turns.size(), 2U);
   EXPECT_GT(*std::ranges::max_element(turns), 0.01);  // of the angle; the length does not turn
