@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "commands/comparison_json.hpp"
-#include "commands/comparison_lines.hpp"
 #include "commands/options.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
+#include "reports/comparison_lines.hpp"
 #include "studies/comparing/difference.hpp"
 #include "studies/results/results_file.hpp"
 

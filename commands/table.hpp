@@ -52,7 +52,7 @@ inline constexpr Command table[] = {
     {"compare", "Two results: do they contradict each other, and what became wider or narrower?", compare},
     {"tolerance", "How far the uncertain quantities may deviate so that all requirements are met", tolerance},
     {"sweep", "A study over a grid or a list of nominal values: its requirements' answers at each", sweep},
-    {"report", "Write the report page of a results file", report},
+    {"report", "Write the report page of a results file, or of two beside each other", report},
     {"info", "What a results file holds and where it comes from; or the tree of a robot", info},
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},
     {"sample", "Many samples of outputs without integrating, each with its proved error", sample},

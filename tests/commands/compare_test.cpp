@@ -114,5 +114,26 @@ TEST_F(CompareCommand, RefusesInOneLine) {
           "output)");
 }
 
+TEST_F(CompareCommand, ReportPutsTwoBesideEachOther) {
+  run("a", sampleStudy);
+  run("b", sampleStudyWith("± 1 %", "± 2 %"));
+  const Outcome written = gamut("report a.h5 b.h5");
+  EXPECT_EQ(written.exitCode, 0) << written.error;
+  EXPECT_EQ(written.out, "a-and-b.html\n");
+  EXPECT_THAT(folder_.read("a-and-b.html"),
+              ::testing::AllOf(HasSubstr("<b>guaranteed, wider:</b> angle (2"), HasSubstr("wider intervals in B"),
+                               HasSubstr("class=\"of-b")));
+  EXPECT_EQ(gamut("report a.h5 b.h5").exitCode, 2) << "it is there";
+  EXPECT_EQ(gamut("report a.h5 b.h5 -o page.html").out, "page.html\n");
+  EXPECT_EQ(gamut("report a.h5 b.h5 -o b.h5 --force").error, "gamut: b.h5: cannot be written; it is the input\n");
+  run("c", sampleStudyWith("name = \"angle\"\nquantity = \"hinge.angle\"\n[[output]]\nquantity = \"tip.position.z\"",
+                           "name = \"other\"\nquantity = \"hinge.angle\""));
+  const Outcome nothing = gamut("report a.h5 c.h5");
+  EXPECT_EQ(nothing.exitCode, 2);
+  EXPECT_THAT(nothing.error, StartsWith("gamut: a.h5 and c.h5: "));
+  EXPECT_EQ(nothing.error.find('\n'), nothing.error.size() - 1);
+  EXPECT_FALSE(folder_.has("a-and-c.html"));
+}
+
 }  // namespace
 }  // namespace gamut

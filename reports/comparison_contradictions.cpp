@@ -1,5 +1,5 @@
 // Both sets with digits enough to see them apart, rounded outward.
-#include "commands/contradiction_lines.hpp"
+#include "reports/comparison_contradictions.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +14,7 @@ namespace gamut {
 namespace {
 
 /// Both, with digits enough to show how far they are apart.
-Both<std::string> boundsText(const Contradiction& c) {
+Both<std::string> boundsOfBoth(const Contradiction& c) {
   double magnitude = 0;
   for (const double bound : {c.lower, c.upper, c.otherLower, c.otherUpper})
     if (std::isfinite(bound)) magnitude = std::max(magnitude, std::fabs(bound));
@@ -22,7 +22,7 @@ Both<std::string> boundsText(const Contradiction& c) {
   return {intervalText(c.lower, c.upper, digits), intervalText(c.otherLower, c.otherUpper, digits)};
 }
 
-std::string timesText(const Contradiction& c, bool moves) {
+std::string timesOf(const Contradiction& c, bool moves) {
   if (!moves) return "";
   return c.times.size() == 1 ? fmt::format(" at {}", timeText(c.time, 10))
                              : fmt::format(" at {} times, farthest at {}", c.times.size(), timeText(c.time, 10));
@@ -62,7 +62,7 @@ std::string nameOf(const Contradiction& c) {
 std::string contradictionText(const Contradiction& c, bool moves) {
   using Of = Contradiction::Of;
   if (c.of == Of::requirement) return c.detail;
-  const std::string times = timesText(c, moves), name = nameOf(c);
+  const std::string times = timesOf(c, moves), name = nameOf(c);
   const std::string unit = c.of == Of::firstIndex || c.of == Of::totalIndex ? "" : c.unit;
   if (c.of == Of::distribution) {
     const bool isMoreInFirst = c.lower > c.otherUpper;
@@ -73,7 +73,7 @@ std::string contradictionText(const Contradiction& c, bool moves) {
                        inUnit(numberText(c.at, 6), unit), times, isMoreInFirst ? "least" : "most",
                        isMoreInFirst ? least : most, isMoreInFirst ? "most" : "least", isMoreInFirst ? most : least);
   }
-  const auto [first, second] = boundsText(c);
+  const auto [first, second] = boundsOfBoth(c);
   if (c.of == Of::sample)
     return fmt::format("samples of {} lie outside the enclosure of {}{}, by {}: {} in A, {} in B",
                        c.isSampleOfFirst ? "A" : "B", c.isSampleOfFirst ? "B" : "A", times,

@@ -1,5 +1,5 @@
 // A sentence, what contradicts and what is worse, then a table of outputs and one of all else.
-#include "commands/comparison_lines.hpp"
+#include "reports/comparison_lines.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "commands/contradiction_lines.hpp"
+#include "reports/comparison_contradictions.hpp"
 #include "reports/text_table.hpp"
 #include "studies/words.hpp"
 
@@ -217,13 +217,14 @@ std::string onlyText(const std::string& in, const std::vector<std::string>& outp
 
 }  // namespace
 
-std::string comparisonText(const Difference& difference, const Results& first, const Results& second,
-                           const Both<std::string>& files) {
+std::string comparisonQuestion(const Difference& difference) { return questionText(difference.relation); }
+
+std::string comparisonSentence(const Difference& difference) { return sentence(difference); }
+
+std::string comparisonNotes(const Difference& difference, const Results& first, const Results& second) {
   const auto& [shared, relation, contradictions, changes, excesses, word] = difference;
   const bool moves = first.horizon > 0 || second.horizon > 0;
-  std::string text = fmt::format("A is {}, B is {}. {}\n{}{}\n", files.first, files.second, questionText(relation),
-                                 samplesText(first, second), sentence(difference));
-  text += contradictionsText(contradictions.found, moves) + excessesText(excesses, moves);
+  std::string text = contradictionsText(contradictions.found, moves) + excessesText(excesses, moves);
   double distance = 0;
   for (const Contradiction& c : contradictions.undecided) distance = std::max(distance, c.distance);
   if (distance > 0)
@@ -245,7 +246,16 @@ std::string comparisonText(const Difference& difference, const Results& first, c
     if (!requirement.isSameDemand) others.push_back(requirement.name);
   if (!others.empty())
     text += fmt::format("  of another demand or window of time in B, so not compared: {}\n", someOf(others));
-  return text + outputsTable(changes, moves) + restTable(changes, first, second, moves);
+  return text;
+}
+
+std::string comparisonText(const Difference& difference, const Results& first, const Results& second,
+                           const Both<std::string>& files) {
+  const bool moves = first.horizon > 0 || second.horizon > 0;
+  return fmt::format("A is {}, B is {}. {}\n{}{}\n", files.first, files.second, comparisonQuestion(difference),
+                     samplesText(first, second), comparisonSentence(difference)) +
+         comparisonNotes(difference, first, second) + outputsTable(difference.changes, moves) +
+         restTable(difference.changes, first, second, moves);
 }
 
 }  // namespace gamut
