@@ -24,6 +24,7 @@ struct Command {
 namespace commands {
 
 Action run(CLI::App& command);
+Action view(CLI::App& command);
 Action resume(CLI::App& command);
 Action extend(CLI::App& command);
 Action validate(CLI::App& command);
@@ -45,6 +46,7 @@ inline constexpr Command table[] = {
     {"new", "Write a study to start from, which explains itself", newStudy},
     {"quantities", "What of a study can be uncertain, and what can be an output", quantities},
     {"run", "Run a study; write results and a report", run},
+    {"view", "The page of a study in the browser, which runs again whenever the file is saved", view},
     {"resume", "A run that was killed goes on; it ends with the same results as one that was not", resume},
     {"extend", "More samples for results, which keep all that was proved", extend},
     {"validate", "Read and check a study file, no more", validate},

@@ -88,13 +88,16 @@ bool writeAll(int pipe, std::string_view bytes) {
   return true;
 }
 
-[[noreturn]] void computeInChild(const std::function<std::string()>& compute, const ChildLimits& limits, char mark,
-                                 int pipe) {
+[[noreturn]] void computeInChild(const std::function<std::string(const ChildProcess::Say&)>& compute,
+                                 const ChildLimits& limits, char mark, int pipe) {
   bool isDone = false;
   try {
     pipe = keepOnly(pipe);
     setLimits(limits);
-    isDone = writeAll(pipe, compute()) && writeAll(pipe, {&mark, 1});
+    const auto say = [pipe](std::string_view part) {
+      if (!writeAll(pipe, part)) ::_exit(1);
+    };
+    isDone = writeAll(pipe, compute(say)) && writeAll(pipe, {&mark, 1});
   } catch (...) {  // then it is not done
   }
   ::_exit(isDone ? 0 : 1);
@@ -102,7 +105,10 @@ bool writeAll(int pipe, std::string_view bytes) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::function<std::string()>& compute, const ChildLimits& limits) {
+ChildProcess::ChildProcess(const std::function<std::string()>& compute, const ChildLimits& limits)
+    : ChildProcess([&](const Say&) { return compute(); }, limits) {}
+
+ChildProcess::ChildProcess(const std::function<std::string(const Say&)>& compute, const ChildLimits& limits) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe to a child");
   const pid_t parent = ::getpid();

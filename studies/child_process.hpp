@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace gamut {
 
@@ -22,6 +23,10 @@ class ChildProcess {
   /// Throws std::system_error if no process can be started. The child has the calling thread alone: `compute` must
   /// wait for no other one. What it throws ends the child.
   ChildProcess(const std::function<std::string()>& compute, const ChildLimits& limits);
+  /// Hands a part of the text over at once; where nobody takes it any more, the child ends. By one thread at a time.
+  using Say = std::function<void(std::string_view)>;
+  /// Likewise of one that says parts of its text while it is at work: what `compute` returns comes last.
+  ChildProcess(const std::function<std::string(const Say&)>& compute, const ChildLimits& limits);
   /// Ends a child that is still at work, and waits for its end.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -32,6 +37,10 @@ class ChildProcess {
   /// Takes what has come, and waits for it where nothing has; false at the end. Throws std::length_error beyond `most`
   /// bytes.
   bool read(std::size_t most);
+  /// What has come and was not dropped.
+  std::string_view soFar() const { return text_; }
+  /// Forgets so many bytes, the first of what has come.
+  void drop(std::size_t bytes) { text_.erase(0, bytes); }
   /// Of a child that has come to its end: whether all of its text arrived.
   bool isWhole() const { return text_.ends_with(mark); }
   /// The text of one that is whole.

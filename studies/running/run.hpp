@@ -27,6 +27,8 @@ struct RunOptions {
   std::function<void(const std::string& task, double fraction)> progress;
   /// Called, from a thread of its own, if an enclosure that was told to end has not done so for a minute.
   std::function<void(const std::string& why)> overdue;
+  /// Called by the thread that runs, whenever a part of the results is there, with those that there are.
+  std::function<void(const Results& soFar)> found;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was computed is kept
   Checkpoints* checkpoints = nullptr;            ///< what it remembers of itself, made by the thread that runs it
   Communicator* communicator = nullptr;          ///< of the ranks that run it, likewise; limits are of each of them

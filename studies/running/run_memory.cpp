@@ -107,6 +107,7 @@ void RunMemory::operator()(const std::function<void()>& unit) {
     return;
   }
   note();
+  if (run_.options.found) run_.options.found(results_);
 }
 
 void RunMemory::note() {

@@ -73,8 +73,8 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
   EXPECT_EQ(
       gamut("walk").error,
-      "gamut: unknown command 'walk'; expected one of: new, quantities, run, resume, extend, validate, check, "
-      "compare, tolerance, sweep, report, info and 5 more\n");
+      "gamut: unknown command 'walk'; expected one of: new, quantities, run, view, resume, extend, validate, check, "
+      "compare, tolerance, sweep, report and 6 more\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }
