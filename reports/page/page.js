@@ -346,20 +346,23 @@ makeSwitches(".outputs > .keys li", (layer, isShown) => {
   for (const plot of drawn) plot.show(layer, isShown);
 });
 
-/** @param {Element} section */
+/** Those that somebody saw. @type {Map<Element, OutputPlot>} */
+const plots = new Map();
+/** @param {HTMLElement} section */
 const drawOnce = section => {
-  const plot = plots.get(section);
-  if (!plot?.plot) plot?.draw();
+  if (plots.has(section)) return;
+  const plot = new OutputPlot(section);
+  plots.set(section, plot);
+  plot.draw();
 };
-/** @type {Map<Element, OutputPlot>} */
-const plots = new Map(all("section.output[data-output]").map(section => [section, new OutputPlot(section)]));
-for (const section of plots.keys()) all("details.panel", section)[0]?.addEventListener("toggle", () => drawOnce(section));
+const sections = all("section.output[data-output]");
+for (const section of sections) all("details.panel", section)[0]?.addEventListener("toggle", () => drawOnce(section));
 // The first, as soon as there is nothing else to do. <html data-plots> says whether it is waiting.
 document.documentElement.dataset.plots = "waiting";
 /** @param {() => void} then */
 const later = then => "requestIdleCallback" in window ? requestIdleCallback(then, { timeout: 300 }) : setTimeout(then, 50);
 later(() => {
-  for (const section of plots.keys()) if (section.matches(".foremost")) drawOnce(section);
+  for (const section of sections) if (section.matches(".foremost")) drawOnce(section);
   document.documentElement.dataset.plots = "drawn";
 });
 new ResizeObserver(() => drawn.forEach(plot => plot.resize())).observe(document.body);
