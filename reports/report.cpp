@@ -5,6 +5,7 @@
 
 #include <string_view>
 
+#include "reports/page/glossary.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/parts.hpp"
 #include "reports/page/skeleton.hpp"
@@ -19,19 +20,21 @@ namespace {
 struct Section {
   std::string_view title, name;  ///< the name in the style sheet
   std::string (*html)(const Report& report);
+  std::string_view folded = {};  ///< what is behind the fold; empty: it is not folded
 };
 
-constexpr Section sections[] = {{"Outputs", "outputs", outputsSection},
-                                {"The machine", "moving", machineSection},
-                                {"What was asked", "asked", askedSection},
-                                {"Workspace", "workspaces", workspaceSection},
-                                {"Modes", "modes", modesSection},
-                                {"Membership", "memberships", membershipSection},
-                                {"Probabilities", "probabilities", probabilitySection},
-                                {"Sensitivity", "sensitivities", sensitivitySection},
-                                {"Figures", "numbers", figuresSection},
-                                {"Samples", "samples", samplesSection},
-                                {"Provenance", "origin", provenanceSection}};
+constexpr Section sections[] = {
+    {"Outputs", "outputs", outputsSection},
+    {"The machine", "moving", machineSection},
+    {"What was asked", "asked", askedSection},
+    {"Workspace", "workspaces", workspaceSection},
+    {"Modes", "modes", modesSection},
+    {"Membership", "memberships", membershipSection},
+    {"Probabilities", "probabilities", probabilitySection},
+    {"Sensitivity", "sensitivities", sensitivitySection},
+    {"Figures", "numbers", figuresSection, "Numbers of all outputs, and what each analysis cost"},
+    {"Samples", "samples", samplesSection, "What the samples tell, and what not"},
+    {"Provenance", "origin", provenanceSection, "Where the numbers come from, and the study word for word"}};
 
 /// The sections, and links to them, the summary first.
 struct SectionTexts {
@@ -40,12 +43,15 @@ struct SectionTexts {
 
 SectionTexts sectionsOf(const Report& report) {
   SectionTexts texts;
-  for (const auto& [title, name, html] : sections)
+  for (const auto& [title, name, html, folded] : sections)
     if (const std::string content = html(report); !content.empty()) {
       texts.html +=
-          fmt::format("<section class=\"{0}\" id=\"{0}\">\n<h2>{1}</h2>\n{2}</section>\n", name, title, content);
+          fmt::format("<section class=\"{0}\" id=\"{0}\">\n<h2>{1}</h2>\n{2}{3}{4}{5}</section>\n", name, title,
+                      folded.empty() ? "" : fmt::format("<details class=\"method\"><summary>{}</summary>\n", folded),
+                      termsOf(name, content), content, folded.empty() ? "" : "</details>\n");
       texts.links += fmt::format("<a href=\"#{}\">{}</a>", name, title);
     }
+  texts.html += meanings(texts.html);
   return texts;
 }
 

@@ -63,7 +63,7 @@ for (const list of all(".listed")) {
 /** What a link leads to is seen. */
 const unfold = () => {
   const target = location.hash.length > 1 ? document.getElementById(decodeURIComponent(location.hash.slice(1))) : null;
-  const panel = target?.querySelector("details.panel");
+  const panel = target?.querySelector("details.panel, details.method");
   if (!(panel instanceof HTMLDetailsElement)) return;
   panel.open = true;
   target?.scrollIntoView();
