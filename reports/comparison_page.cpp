@@ -199,12 +199,14 @@ class ComparisonPage {
                all = difference_.shared.requirements.size();
     if (difference_.word == Difference::Word::error) return comparisonSentence(difference_);
     if (all == 0) return "Neither has requirements in common with the other; their outputs are compared.";
-    if (better + worse == 0)
-      return fmt::format("Of {} in common none is better or worse in B.",
-                         countText(static_cast<long long>(all), "requirement"));
-    return fmt::format(
-        "Of {} in common {} better in B, {} worse.", countText(static_cast<long long>(all), "requirement"),
-        better == 1 ? "1 is" : fmt::format("{} are", better), worse == 1 ? "1 is" : fmt::format("{} are", worse));
+    const bool isAnyBetter = better > 0, isAnyWorse = worse > 0;
+    const char* how = isAnyBetter ? "better" : isAnyWorse ? "worse" : "neither better nor worse";
+    if (all == 1) return fmt::format("The requirement that both have is {} in B.", how);
+    const auto are = [](std::size_t count) { return fmt::format("{} {}", count, count == 1 ? "is" : "are"); };
+    const std::string both = fmt::format("Of {} requirements in common", all);
+    if (!isAnyBetter && !isAnyWorse) return both + " none is better or worse in B.";
+    if (isAnyBetter && isAnyWorse) return fmt::format("{} {} better and {} worse in B.", both, are(better), are(worse));
+    return fmt::format("{} {} {} in B.", both, are(better + worse), how);
   }
 
   std::string changesList() const {

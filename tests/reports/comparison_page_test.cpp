@@ -77,6 +77,34 @@ TEST(ComparisonPage, SaysWhichRequirementsAreBetterOrWorse) {
   EXPECT_THAT(pageOf(a, b), AllOf(Not(HasSubstr("likelier")), HasSubstr("as it was")));
 }
 
+TEST(ComparisonPage, BeginsWithHowManyRequirementsAreBetterOrWorse) {
+  Results a = sampleResults();
+  ASSERT_FALSE(a.requirements.empty());
+  a.requirements.resize(1, a.requirements.front());
+  a.requirements.front().word = Decision::met;
+  const auto leadOf = [](const Results& from, const Results& to) {
+    const std::string page = pageOf(from, to), mark = "<p class=\"lead\">";
+    const std::size_t begin = page.find(mark) + mark.size();
+    return page.substr(begin, page.find('<', begin) - begin);
+  };
+  Results b = a;
+  EXPECT_EQ(leadOf(a, b), "The requirement that both have is neither better nor worse in B.");
+  b.requirements.front().word = Decision::open;
+  EXPECT_EQ(leadOf(a, b), "The requirement that both have is worse in B.");
+  EXPECT_EQ(leadOf(b, a), "The requirement that both have is better in B.");
+  for (Results* results : {&a, &b})
+    for (const char* name : {"second", "third"}) {
+      results->requirements.push_back(a.requirements.front());
+      results->requirements.back().name = name;
+    }
+  EXPECT_EQ(leadOf(a, b), "Of 3 requirements in common 1 is worse in B.");
+  EXPECT_EQ(leadOf(b, a), "Of 3 requirements in common 1 is better in B.");
+  a.requirements.back().word = Decision::open;
+  EXPECT_EQ(leadOf(a, b), "Of 3 requirements in common 1 is better and 1 is worse in B.");
+  b = a;
+  EXPECT_EQ(leadOf(a, b), "Of 3 requirements in common none is better or worse in B.");
+}
+
 TEST(ComparisonPage, SaysWhatOnlyOneHasAndWhatWasAskedOtherwise) {
   const Results a = example::pendulum();
   Results b = a;
