@@ -244,11 +244,11 @@ std::string ofEnd(const Results& results, const Verdict& verdict) {
     return unfinished.empty() ? "" : fmt::format(" The computation is incomplete: {}.", whyUnfinished(results));
   const double reached = reachedTime(results);
   const bool isShort = results.horizon > 0 && reached < results.horizon;
-  return fmt::format(" The computation is incomplete: it ended early{}{}.",
+  return fmt::format(" The computation is incomplete{}{}.",
                      isShort ? fmt::format(", and what it says of all cases ends at {} of {}", reachedText(reached),
                                            timeText(results.horizon))
                              : "",
-                     why.empty() ? "" : " (" + why + ")");
+                     why.empty() ? "" : ": " + why);
 }
 
 }  // namespace

@@ -316,8 +316,11 @@ TEST(PlainSummary, SaysThatARunEndedEarly) {
         bounds->lower(i, k) = bounds->upper(i, k) = std::nan("");
   EXPECT_THAT(summaryOf(results), HasSubstr("from 0 s to 1.5 s in every case"));
   EXPECT_THAT(summaryOf(results),
-              EndsWith("The computation is incomplete: it ended early, and what it says of all cases "
-                       "ends at 1.5 s of 3 s (the run was interrupted)."));
+              EndsWith("The computation is incomplete, and what it says of all cases ends at 1.5 s of 3 s: "
+                       "the run was interrupted."));
+  results.interval = example::pendulum().interval;
+  results.stopped = "the run goes on";
+  EXPECT_THAT(summaryOf(results), EndsWith(" The computation is incomplete: the run goes on."));
 }
 
 TEST(PlainSummary, TellsNobodyToRelyOnWhatWasRefuted) {
