@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -25,9 +26,18 @@ class Seen final : public Onlooker {
   struct Body {
     FixedPoint centre;
     Expression mass;
+    std::vector<Expression> inertia;
   };
   struct Line {
     FixedPoint from, to;
+  };
+  struct Spring {
+    Line ends;
+    SeenSpring is;
+  };
+  struct JointSpring {
+    std::string coordinate;
+    SeenSpring is;
   };
   struct Joint {
     FixedPoint at;
@@ -38,8 +48,17 @@ class Seen final : public Onlooker {
     Axis axis;
   };
   void movedFrame(const Word&, std::string& name, const std::string& from) override { moved.push_back({from, name}); }
-  void carriesMass(const FixedPoint& centre, const Expression& mass) override { bodies.push_back({centre, mass}); }
-  void drawsSpring(const FixedPoint& from, const FixedPoint& to) override { springs.push_back({from, to}); }
+  void carriesMass(const FixedPoint& centre, const Expression& mass, std::span<const Expression> inertia) override {
+    bodies.push_back({centre, mass, {inertia.begin(), inertia.end()}});
+  }
+  void drawsSpring(const FixedPoint& from, const FixedPoint& to, const SeenSpring& spring) override {
+    springs.push_back({{from, to}, spring});
+  }
+  void drawsJointSpring(const std::string& coordinate, const SeenSpring& spring) override {
+    jointSprings.push_back({coordinate, spring});
+  }
+  void drawsMotor(const std::string& coordinate) override { motors.push_back(coordinate); }
+  void drawsWheel(const Axis& axle, const Expression& itsRadius) override { wheel = {axle, itsRadius}; }
   void drawsLink(const FixedPoint& from, const FixedPoint& to) override { links.push_back({from, to}); }
   void drawsJoint(const FixedPoint& at, int itsTurns, int itsSlides) override {
     joints.push_back({at, itsTurns, itsSlides});
@@ -56,7 +75,11 @@ class Seen final : public Onlooker {
 
   std::vector<Moved> moved;
   std::vector<Body> bodies;
-  std::vector<Line> springs, links;
+  std::vector<Line> links;
+  std::vector<Spring> springs;
+  std::vector<JointSpring> jointSprings;
+  std::vector<std::string> motors;  // coordinates
+  std::optional<std::pair<Axis, Expression>> wheel;
   std::vector<Joint> joints;
   std::vector<JointAxis> axes;
   std::optional<SeenShape> shape;
@@ -66,7 +89,7 @@ class Seen final : public Onlooker {
 
 class Finder {
  public:
-  explicit Finder(const Mechanism& mechanism) {
+  explicit Finder(const Mechanism& mechanism) : mechanism_(mechanism) {
     for (Described element : mechanism.elements()) take(element);
   }
 
@@ -89,21 +112,68 @@ class Finder {
       const std::size_t first = pointOf(from), second = pointOf(to);
       skeleton.parts.push_back({name, element.type(), seen.play ? play : (isJoint ? joint : rigid), first, second,
                                 seen.turns, seen.slides, 0.0, seen.play.value_or(0.0)});
+      if (seen.turns == 1 && seen.slides == 0 && seen.axes.size() == 1) turning_.emplace(to, seen.axes.front().axis);
+      if (seen.wheel) addWheel(element, to, second, seen.wheel->first, seen.wheel->second);
     }
-    for (const auto& [centre, mass] : seen.bodies) {
-      const std::size_t first = pointOf(centre.frame), second = pointOf(name + ".centre", centre);
-      skeleton.parts.push_back({name, element.type(), Skeleton::Kind::mass, first, second, 0, 0, mass});
+    for (const Seen::Body& body : seen.bodies) addBody(element, body);
+    for (const auto& [ends, is] : seen.springs) {
+      if (!isNothing(is.stiffness)) addLine(element, spring, ends);
+      if (!isNothing(is.damping)) addLine(element, damper, ends);
     }
-    for (const auto& [lines, kind] : {std::pair(&seen.springs, spring), std::pair(&seen.links, rigid)})
-      for (const auto& [from, to] : *lines) {
-        const std::size_t first = pointOf(name + ".from", from), second = pointOf(name + ".to", to);
-        skeleton.parts.push_back({name, element.type(), kind, first, second, 0, 0, 0.0});
-      }
+    for (const Seen::Line& link : seen.links) addLine(element, rigid, link);
+    for (const auto& [coordinate, is] : seen.jointSprings) {
+      if (!isNothing(is.stiffness)) addAtJoint(element, spring, coordinate);
+      if (!isNothing(is.damping)) addAtJoint(element, damper, coordinate);
+    }
+    for (const std::string& coordinate : seen.motors) addAtJoint(element, motor, coordinate);
     for (const auto& [at, turns, slides] : seen.joints) {
       if (turns < 3) addAxes(name, seen);
       const std::size_t place = pointOf(name + ".at", at);
       skeleton.parts.push_back({name, element.type(), joint, place, place, turns, slides, 0.0});
     }
+  }
+
+  bool isNothing(const Expression& number) const {
+    const Interval range = mechanism_.rangeOf(number);
+    return range.lower() == 0 && range.upper() == 0;
+  }
+
+  void addLine(const Described& element, Skeleton::Kind kind, const Seen::Line& line) {
+    const std::size_t first = pointOf(element.name() + ".from", line.from),
+                      second = pointOf(element.name() + ".to", line.to);
+    skeleton.parts.push_back({element.name(), element.type(), kind, first, second, 0, 0, 0.0});
+  }
+
+  /// Of a joint with one freedom: where there are several, one would lie upon the other.
+  void addAtJoint(const Described& element, Skeleton::Kind kind, const std::string& coordinate) {
+    const auto joint = std::ranges::find_if(skeleton.parts, [&](const Skeleton::Part& part) {
+      return part.kind == Skeleton::Kind::joint && (part.name == coordinate || coordinate.starts_with(part.name + "."));
+    });
+    if (joint == skeleton.parts.end() || joint->turns + joint->slides != 1) return;
+    skeleton.parts.push_back(
+        {element.name(), element.type(), kind, joint->from, joint->to, joint->turns, joint->slides, 0.0});
+  }
+
+  void addBody(const Described& element, const Seen::Body& body) {
+    const auto& [centre, mass, inertia] = body;
+    const std::size_t first = pointOf(centre.frame), second = pointOf(element.name() + ".centre", centre);
+    skeleton.parts.push_back({element.name(), element.type(), Skeleton::Kind::mass, first, second, 0, 0, mass});
+    const auto turning = turning_.find(centre.frame);
+    if (turning == turning_.end() || !turning->second.isAligned() || inertia.empty() || isNothing(mass)) return;
+    const Expression& about = inertia[static_cast<std::size_t>(turning->second.index())];
+    if (isNothing(about) || !std::ranges::all_of(centre.place, [&](const Expression& x) { return isNothing(x); }))
+      return;
+    addWheel(element, centre.frame, second, turning->second, sqrt(Expression(2.0) * about / mass));  // a disc's
+  }
+
+  void addWheel(const Described& element, const std::string& frame, std::size_t centre, const Axis& axle,
+                const Expression& radius) {
+    const std::array next{axisY, axisZ, axisX};
+    const std::string& name = element.name();
+    skeleton.axes.push_back({name + ".axle", skeleton.parts.size(), frame, axle});
+    skeleton.axes.push_back(
+        {name + ".spoke", skeleton.parts.size(), frame, next[static_cast<std::size_t>(axle.index())]});
+    skeleton.parts.push_back({name, element.type(), Skeleton::Kind::wheel, centre, centre, 0, 0, 0.0, radius});
   }
 
   /// Of the part that comes next.
@@ -162,7 +232,9 @@ class Finder {
     return skeleton.points.size() - 1;
   }
 
+  const Mechanism& mechanism_;
   std::vector<std::string> ground_{Mechanism::inertialFrame};  // frames
+  std::map<std::string, Axis> turning_;                        // frames, about what
 };
 
 /// x, y, z of every vector that `vectorOf` makes of what is in the list.

@@ -30,19 +30,22 @@ struct Skeleton {
     spring,  ///< a load between two points
     shape,   ///< all within `radius` of the line between two points: a sphere, a capsule, an edge of a box or a hull
     play,    ///< `to` lies off `from` within the clearance `radius`
+    damper,  ///< a load between two points
+    wheel,   ///< turns about `to`; its first axis is the axle, its second a spoke
+    motor    ///< at a joint
   };
   struct Part {
     std::string name, type;  ///< as in the study
     Kind kind = Kind::rigid;
     std::size_t from = 0, to = 0;  ///< points
-    int turns = 0, slides = 0;     ///< of a joint: how many of its speeds turn [rad/s] and slide [m/s]
+    int turns = 0, slides = 0;     ///< of a joint, or of a load at one: how many speeds turn [rad/s] and slide [m/s]
     Expression mass = 0.0;         ///< kg
     Expression radius = 0.0;       ///< m
   };
-  /// A direction that belongs to a joint.
+  /// A direction that belongs to a joint or a wheel.
   struct JointAxis {
     std::string name;      ///< "hinge.axis"
-    std::size_t part = 0;  ///< the joint
+    std::size_t part = 0;  ///< the joint or the wheel
     std::string frame;     ///< in which the direction is fixed
     Axis axis = axisX;
   };

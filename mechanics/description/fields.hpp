@@ -102,6 +102,11 @@ struct SeenShape {
   std::vector<ExpressionVector> points = {};            ///< whose hull is the polyhedron [m]
 };
 
+/// What of a spring is seen: what is exactly 0 is not.
+struct SeenSpring {
+  Expression stiffness, damping;
+};
+
 class Fields {
  public:
   Fields() = default;
@@ -117,10 +122,18 @@ class Fields {
   virtual void movedFrame(const Word& word, std::string& name, const std::string& from) = 0;
   /// The element moves the frame that it has named like this.
   virtual void movesAs(const KnownMotion& /*motion*/) {}
-  /// The element fixes a mass [kg] to a frame, which one of its words has named, with its centre there.
-  virtual void carriesMass(const FixedPoint& /*centre*/, const Expression& /*mass*/) {}
-  /// It is seen as a spring between these ends. What moves a frame and what carries mass is seen as that.
-  virtual void drawsSpring(const FixedPoint& /*from*/, const FixedPoint& /*to*/) {}
+  /// The element fixes a mass [kg] to a frame, which one of its words has named, with its centre there. `inertia`: its
+  /// moments about x, y, z of the frame [kg m²]; empty where they are not told in the frame's axes.
+  virtual void carriesMass(const FixedPoint& /*centre*/, const Expression& /*mass*/,
+                           std::span<const Expression> /*inertia*/) {}
+  /// It is seen as a spring, a damper or both between these ends. What moves a frame and what carries mass is seen as
+  /// that.
+  virtual void drawsSpring(const FixedPoint& /*from*/, const FixedPoint& /*to*/, const SeenSpring& /*spring*/) {}
+  /// The same at a joint, or a motor; `coordinate`: as coordinateOf has it.
+  virtual void drawsJointSpring(const std::string& /*coordinate*/, const SeenSpring& /*spring*/) {}
+  virtual void drawsMotor(const std::string& /*coordinate*/) {}
+  /// The frame that it moves as a wheel about this axis [m].
+  virtual void drawsWheel(const Axis& /*axle*/, const Expression& /*radius*/) {}
   /// As rigid between these points, or as a joint at one of them, of so many freedoms, about or along its jointAxis.
   virtual void drawsLink(const FixedPoint& /*from*/, const FixedPoint& /*to*/) {}
   virtual void drawsJoint(const FixedPoint& /*at*/, int /*turns*/, int /*slides*/) {}

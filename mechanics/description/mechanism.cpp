@@ -408,7 +408,8 @@ class Mechanism::Checker final : public Fields {
     frame(word, name);
     if (name == other) refuse("the element " + inQuotes(element_) + " joins a frame to itself", "two different frames");
   }
-  void carriesMass(const FixedPoint& centre, const Expression& /*mass*/) override {
+  void carriesMass(const FixedPoint& centre, const Expression& /*mass*/,
+                   std::span<const Expression> /*inertia*/) override {
     if (m_.isFrame_.contains(element_))
       refuse("the element " + inQuotes(element_) + " has the name of a frame", "another name");
     m_.massFrames_.push_back(centre.frame);

@@ -91,7 +91,7 @@ void Bushing::describe(Fields& f) {
   f.vector({"angular_damping", "N m s/rad", "about x, y, z of `from`"}, angularDamping);
   f.vector({"from_point", "m", "where it sits in `from`"}, fromPoint);
   f.vector({"to_point", "m", "where it sits in `to`"}, toPoint);
-  f.drawsSpring({from, fromPoint}, {to, toPoint});
+  f.drawsSpring({from, fromPoint}, {to, toPoint}, {1.0, 0.0});
   for (const char* component : components) {
     f.measure({std::string("force.") + component, "N", "on `to`, in the axes of `from`"});
     f.measure({std::string("moment.") + component, "N m", "on `to` about its point, in the axes of `from`"});

@@ -11,6 +11,7 @@ void JointSpring::describe(Fields& f) {
   f.number({"stiffness", force + "/" + unit, ""}, stiffness);
   f.number({"rest", unit, "where it pulls and pushes nothing"}, rest);
   f.number({"damping", force + " s/" + unit, ""}, damping);
+  f.drawsJointSpring(joint, {stiffness, damping});
 }
 
 template <class S>

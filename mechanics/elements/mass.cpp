@@ -10,7 +10,8 @@ namespace gamut {
 
 void Mass::describe(Fields& f) {
   f.frame({"at", "", "the frame that it is fixed to"}, at);
-  f.carriesMass({at, centre}, mass);
+  f.carriesMass({at, centre}, mass,
+                rotation.empty() ? std::span<const Expression>(inertia).first(3) : std::span<const Expression>());
   f.number({"mass", "kg", "the mass, not negative", true}, mass);
   f.vector({"centre", "m", "centre of mass, in `at`"}, centre);
   f.numbers(

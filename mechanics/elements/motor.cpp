@@ -14,6 +14,7 @@ void Motor::describe(Fields& f) {
   f.number({"inertia", "kg m^2", "of the rotor about its axis, gear included"}, inertia);
   f.number({"friction", "N m s/rad", "viscous, on the rotor"}, friction);
   describeCoordinateLoad(f, kind);
+  f.drawsMotor(joint);
   f.measure({"rate", "rad/s", "of the rotor"});
 }
 

@@ -72,6 +72,7 @@ void RollingWheel::describe(Fields& f) {
                {"rate", "rad/s", "at the start"}, angleRate);
   describePlace(f, "where it touches the plane", x, y);
   describeTouching(f);
+  f.drawsWheel(axisY, radius);
   f.measureSolved({"longitudinal_force", "N", "of the plane, in the direction in which the wheel rolls"});
   f.measureSolved({"lateral_force", "N", "of the plane, to the left of it"});
 }

@@ -13,7 +13,7 @@ void Spring::describe(Fields& f) {
   f.number({"damping", "N s/m", ""}, damping);
   f.vector({"from_point", "m", "where it is fixed in `from`"}, fromPoint);
   f.vector({"to_point", "m", "where it is fixed in `to`"}, toPoint);
-  f.drawsSpring({from, fromPoint}, {to, toPoint});
+  f.drawsSpring({from, fromPoint}, {to, toPoint}, {stiffness, damping});
   f.measureLength({"length", "m", "of the spring"});
   f.measure({"force", "N", "that pushes its ends apart"});
 }

@@ -50,11 +50,14 @@ class Builder {
     for (std::size_t k = 0; k < m_.places.sample.size(); ++k) add(Form::sample, k, 0, "sample", classOf("sample"));
     addGround();
     for (const PartInfo& part : m_.parts) addShape(part);
+    for (std::size_t i = 0; i < m_.parts.size(); ++i) addWheel(i);
     for (const PartInfo& part : m_.parts) addLine(part);
+    for (const PartInfo& part : m_.parts) addLoad(part);
     for (const PartInfo& part : m_.parts) addPlay(part);
     for (const PartInfo& part : m_.parts)
       if (part.kind == PartKind::mass) addMass(part);
     for (std::size_t i = 0; i < m_.parts.size(); ++i) addJoint(i);
+    for (const PartInfo& part : m_.parts) addSign(part);
     if (isEnclosed(m_)) add(Form::now, 0, 0, "now", classOf("now"));  // masses are larger than most enclosures
     if (numberOf(PartKind::mass) <= mostNames) addNames();
     for (std::size_t i = 0; i < std::min<std::size_t>(3, m_.directions.size()); ++i) {
@@ -68,11 +71,11 @@ class Builder {
   using Form = Shape::Form;
 
   void add(Form form, std::size_t from, std::size_t to, const char* layer, const std::string& look,
-           const std::string& content = "") {
-    s_.shapes.push_back({form, from, to, look, content, layer});
+           const std::string& content = "", double size = 0) {
+    s_.shapes.push_back({form, from, to, size, look, content, layer});
   }
-  void add(Form form, const PartInfo& part, const std::string& look) {
-    add(form, part.from, part.to, "nominal", look, titleOf(part));
+  void add(Form form, const PartInfo& part, const std::string& look, double size = 0) {
+    add(form, part.from, part.to, "nominal", look, titleOf(part), size);
   }
   /// Play is told as numbers, which no motion changes.
   static bool isFixedOn(const PartInfo& part) { return part.kind == PartKind::rigid || part.kind == PartKind::play; }
@@ -130,7 +133,7 @@ class Builder {
           if (m_.points[point].isGround) isHeld[footOf(point)] = 1;
     for (std::size_t k = 0; k < m_.points.size(); ++k)
       if (isHeld[k] != 0)
-        add(Form::ground, k, k, "", classOf("ground"),
+        add(Form::sign, k, k, "", classOf("ground"),
             titleOf(m_.points[k].name + ": fixed") +
                 "<path class=\"hatch\" d=\"M-15 17l5 -6M-9 17l5 -6M-3 17l5 -6M3 17l5 -6M9 17l5 -6\"/>"
                 "<path d=\"M0 0L-9 11H9ZM-15 11H15\"/>");
@@ -145,16 +148,80 @@ class Builder {
                     std::clamp(2 * part.radius * s_.view.scale, hairline, largest)));
   }
 
+  static bool isLoad(const PartInfo& part) {
+    return part.kind == PartKind::spring || part.kind == PartKind::damper || part.kind == PartKind::motor;
+  }
+
   void addLine(const PartInfo& part) {
-    if (part.from == part.to || part.kind == PartKind::shape || part.kind == PartKind::play) return;
-    const bool slides = part.kind == PartKind::joint && part.slides == 1 && part.turns <= 1,
-               isSpring = part.kind == PartKind::spring;
-    add(isSpring ? Form::zigzag : Form::line, part,
-        classOf(part.kind == PartKind::rigid  ? "link"
+    if (part.from == part.to || isLoad(part) || part.kind == PartKind::shape || part.kind == PartKind::play) return;
+    const bool slides = part.kind == PartKind::joint && part.slides == 1 && part.turns <= 1;
+    add(Form::line, part,
+        classOf(part.kind == PartKind::rigid  ? (isUnderSpring(part) ? "rail" : "link")
                 : part.kind == PartKind::mass ? "arm"
-                : isSpring                    ? "spring"
                 : slides                      ? "rail"
                                               : "loose"));
+  }
+
+  /// The one that carries what a spring slides upon, in its direction, and nothing else: it says how long the spring is
+  /// at rest.
+  const PartInfo* linkUnder(const PartInfo& load) const {
+    const auto isUnder = [&](const PartInfo& part) { return part.kind == PartKind::rigid && part.to == load.from; };
+    const auto link = std::ranges::find_if(m_.parts, isUnder);
+    if (load.slides != 1 || link == m_.parts.end() || link->from == link->to) return nullptr;
+    for (const PartInfo& part : m_.parts)
+      if (const bool isHeld = part.kind == PartKind::joint && part.from == load.from && part.to == load.to;
+          !isHeld && !isLoad(part) && &part != &*link && (part.from == load.from || part.to == load.from))
+        return nullptr;
+    for (std::size_t a = 0; a < m_.axes.size(); ++a) {
+      const PartInfo& joint = m_.parts[m_.axes[a].part];
+      if (joint.kind != PartKind::joint || joint.from != load.from || joint.to != load.to) continue;
+      const Place axis = placeOf(m_.places.axes, 0, m_.axes.size(), a),
+                  along = minus(s_.at(s_.nominal, 0, link->to), s_.at(s_.nominal, 0, link->from));
+      constexpr double parallel = 0.999;
+      if (std::fabs(dot(axis, along)) >= parallel * norm(along)) return &*link;
+    }
+    return nullptr;
+  }
+  bool isUnderSpring(const PartInfo& link) const {
+    return std::ranges::any_of(m_.parts, [&](const PartInfo& part) {
+      return (part.kind == PartKind::spring || part.kind == PartKind::damper) && linkUnder(part) == &link;
+    });
+  }
+
+  /// A spring and a damper of one element stand beside each other.
+  void addLoad(const PartInfo& part) {
+    constexpr double aside = 11;
+    const bool isSpring = part.kind == PartKind::spring;
+    if ((!isSpring && part.kind != PartKind::damper) || (part.turns > 0 && part.slides == 0)) return;
+    const PartInfo* link = linkUnder(part);
+    const bool isPair = std::ranges::count_if(m_.parts, [&](const PartInfo& other) {
+                          return isLoad(other) && other.name == part.name;
+                        }) > 1;
+    add(isSpring ? Form::zigzag : Form::dashpot, link ? link->from : part.from, part.to, "nominal", classOf("spring"),
+        titleOf(part), isPair ? (isSpring ? -aside : aside) : 0);
+  }
+
+  /// At a joint: a motor, and a spring that it winds.
+  void addSign(const PartInfo& part) {
+    const bool isMotor = part.kind == PartKind::motor;
+    if (!isMotor && (part.kind != PartKind::spring || part.turns != 1)) return;
+    if (isMotor)
+      add(Form::sign, part.to, part.to, "nominal", classOf("motor"),
+          titleOf(part) + "<circle cx=\"-17\" cy=\"17\" r=\"8\"/><text x=\"-17\" y=\"21\">M</text>");
+    else
+      add(Form::sign, part.to, part.to, "nominal", classOf("coil"),
+          titleOf(part) +
+              "<path d=\"M0 -5a5 5 0 0 1 0 10a7.5 7.5 0 0 1 0 -15a10 10 0 0 1 0 20a12.5 12.5 0 0 1 -9 -4\"/>");
+  }
+
+  /// As large as it is, seen from where it stands; a disc where only mass and inertia are known.
+  void addWheel(std::size_t i) {
+    const PartInfo& part = m_.parts[i];
+    const auto axle = std::ranges::find(m_.axes, i, &AxisInfo::part);
+    if (part.kind != PartKind::wheel || !(part.radius > 0) || axle == m_.axes.end()) return;
+    constexpr double largest = 1e4;
+    add(Form::wheel, static_cast<std::size_t>(axle - m_.axes.begin()), part.to, "nominal", classOf("wheel"),
+        titleOf(part), std::round(10 * std::min(part.radius * s_.view.scale, largest)) / 10);
   }
 
   /// The hole that a pin has play in, or the room of a slider's ends: a ring about what it lies off, mostly larger than
@@ -172,7 +239,12 @@ class Builder {
     for (const PartInfo& other : m_.parts) most = std::max(most, other.mass);
     constexpr double least = 5, greatest = 13, together = 100;
     const double largest = std::clamp(together / static_cast<double>(numberOf(PartKind::mass)), least, greatest);
-    const double radius = most > 0 ? std::max(least, largest * std::cbrt(std::max(part.mass, 0.0) / most)) : least;
+    const bool isWheel = std::ranges::any_of(m_.parts, [&](const PartInfo& other) {
+      return other.kind == PartKind::wheel && other.to == part.to && other.radius > 0;
+    });
+    const double radius = isWheel    ? 0.5 * least
+                          : most > 0 ? std::max(least, largest * std::cbrt(std::max(part.mass, 0.0) / most))
+                                     : least;
     add(Form::circle, part, fmt::format("class=\"mass\" r=\"{:.1f}\"", radius));
   }
 
@@ -243,7 +315,7 @@ std::string scaleBar(const View& view) {
 
 const char* tagOf(Shape::Form form) {
   using enum Shape::Form;
-  return form == circle ? "circle" : form == name || form == letter ? "text" : form == ground ? "g" : "path";
+  return form == circle ? "circle" : form == name || form == letter ? "text" : form == sign ? "g" : "path";
 }
 
 }  // namespace

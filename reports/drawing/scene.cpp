@@ -18,15 +18,44 @@ std::string text(double x) { return fmt::format("{:.1f}", x + 0.0); }
 std::string pair(const Sight& at) { return text(at.x) + " " + text(at.y); }
 std::string straight(const Sight& from, const Sight& to) { return "M" + pair(from) + "L" + pair(to); }
 
-/// Nine turns between two straight ends.
-std::string spring(const Sight& from, const Sight& to) {
-  const double dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy), end = 0.14;
-  std::string path = "M" + pair(from);
-  for (int i = 0; length > 1 && i <= 18; ++i) {
-    const double along = end + (1 - 2 * end) * i / 18, aside = (i % 2 == 0 ? 0 : i % 4 == 1 ? 6 : -6) / length;
-    path += "L" + pair({from.x + along * dx - aside * dy, from.y + along * dy + aside * dx});
+/// Places as seen from a straight line: `along` its length as a share, `aside` in units of the paper.
+class Beside {
+ public:
+  Beside(const Sight& from, const Sight& to)
+      : from_(from), dx_(to.x - from.x), dy_(to.y - from.y), length_(std::hypot(dx_, dy_)) {}
+  double length() const { return length_; }
+  std::string at(double along, double aside) const {
+    const double part = aside / length_;
+    return pair({from_.x + along * dx_ - part * dy_, from_.y + along * dy_ + part * dx_});
   }
+
+ private:
+  Sight from_;
+  double dx_, dy_, length_;
+};
+
+/// Nine turns between two straight ends, beside the line.
+std::string spring(const Sight& from, const Sight& to, double beside) {
+  const Beside line(from, to);
+  constexpr double end = 0.14;
+  std::string path = "M" + pair(from);
+  if (line.length() > 1 && beside != 0) path += "L" + line.at(0, beside);
+  for (int i = 0; line.length() > 1 && i <= 18; ++i)
+    path += "L" + line.at(end + (1 - 2 * end) * i / 18, beside + (i % 2 == 0 ? 0 : i % 4 == 1 ? 6 : -6));
+  if (line.length() > 1 && beside != 0) path += "L" + line.at(1, beside);
   return path + "L" + pair(to);
+}
+
+/// A cylinder, which is open towards `to`, and a piston in it.
+std::string damper(const Sight& from, const Sight& to, double beside) {
+  const Beside line(from, to);
+  if (!(line.length() > 1)) return straight(from, to);
+  constexpr double half = 5, closed = 0.36, piston = 0.52, open = 0.66;
+  const auto at = [&](double along, double aside) { return line.at(along, beside + aside); };
+  std::string path = "M" + pair(from) + "L" + at(0, 0) + "L" + at(closed, 0);
+  path += "M" + at(open, half) + "L" + at(closed, half) + "L" + at(closed, -half) + "L" + at(open, -half);
+  path += "M" + at(piston, half - 1) + "L" + at(piston, 1 - half);
+  return path + "M" + at(piston, 0) + "L" + at(1, 0) + "L" + pair(to);
 }
 
 class Picture {
@@ -84,15 +113,33 @@ class Picture {
   Sight direction(const Place& v) const { return {dot(v, stance_.right), 0 - dot(v, stance_.up)}; }
 
   /// A circle where it points at the beholder, or nowhere.
-  std::string pin(const Sight& at, std::size_t axis) const {
-    Sight to =
-        direction(placeOf(s_.axes, stance_.row, s_.axes.size() / std::max<std::size_t>(1, 3 * s_.time.size()), axis));
+  std::string pin(const Sight& at, std::size_t number) const {
+    Sight to = direction(axis(number));
     if (!isOnPaper(to)) to = {};
     const double x = pinLength * to.x, y = pinLength * to.y;
     return straight({at.x - x, at.y - y}, {at.x + x, at.y + y});
   }
 
+  /// Its rim, and the spoke along the axis behind that of the axle; nothing where one of them is unknown.
+  std::string wheel(const Sight& at, std::size_t number, double radius) const {
+    const Place axle = axis(number), along = axis(number + 1);
+    const Sight u = direction(along), v = direction(cross(axle, along));
+    if (!isOnPaper(u) || !isOnPaper(v)) return {};
+    constexpr int corners = 32;
+    constexpr double turn = 2 * 3.14159265358979323846;
+    std::string path;
+    for (int k = 0; k < corners; ++k) {
+      const double x = radius * std::cos(turn * k / corners), y = radius * std::sin(turn * k / corners);
+      path += (k == 0 ? "M" : "L") + pair({at.x + x * u.x + y * v.x, at.y + x * u.y + y * v.y});
+    }
+    return path + "Z" + straight(at, {at.x + radius * u.x, at.y + radius * u.y});
+  }
+
  private:
+  Place axis(std::size_t number) const {
+    return placeOf(s_.axes, stance_.row, s_.axes.size() / std::max<std::size_t>(1, 3 * s_.time.size()), number);
+  }
+
   const Scene& s_;
   const Stance& stance_;
 };
@@ -143,23 +190,27 @@ std::vector<std::pair<std::string_view, std::string>> attributesOf(const Scene& 
     return {{"x", text(at.x + 28 * to.x)}, {"y", text(at.y + 28 * to.y + 4)}};
   }
   const Sight to = picture.point(scene.nominal, stance.row, shape.to),
-              from = shape.form == pin ? to : picture.point(scene.nominal, stance.row, shape.from);
+              from =
+                  shape.form == pin || shape.form == wheel ? to : picture.point(scene.nominal, stance.row, shape.from);
   if (!isOnPaper(from) || !isOnPaper(to)) return {};
   if (shape.form == circle) return {{"cx", text(to.x)}, {"cy", text(to.y)}};
   if (shape.form == name) return {{"x", text(to.x + 15)}, {"y", text(to.y - 9)}};
-  if (shape.form == ground) return {{"transform", "translate(" + pair(to) + ")"}};
-  return {{"d", shape.form == pin      ? picture.pin(to, shape.from)
-                : shape.form == zigzag ? spring(from, to)
-                                       : straight(from, to)}};
+  if (shape.form == sign) return {{"transform", "translate(" + pair(to) + ")"}};
+  return {{"d", shape.form == pin       ? picture.pin(to, shape.from)
+                : shape.form == wheel   ? picture.wheel(to, shape.from, shape.size)
+                : shape.form == zigzag  ? spring(from, to, shape.size)
+                : shape.form == dashpot ? damper(from, to, shape.size)
+                                        : straight(from, to)}};
 }
 
 std::string sceneData(const Scene& scene) {
-  constexpr const char* forms[] = {"line",   "zigzag", "circle", "name",  "ground", "pin",
-                                   "sample", "now",    "swept",  "arrow", "letter"};
+  constexpr const char* forms[] = {"line",  "zigzag", "dashpot", "circle", "name",  "sign",  "pin",
+                                   "wheel", "sample", "now",     "swept",  "arrow", "letter"};
   const View& view = scene.view;
   std::vector<std::string> shapes, links;
   for (const Shape& shape : scene.shapes)
-    shapes.push_back(fmt::format("[\"{}\",{},{}]", forms[static_cast<int>(shape.form)], shape.from, shape.to));
+    shapes.push_back(
+        fmt::format("[\"{}\",{},{},{:.1f}]", forms[static_cast<int>(shape.form)], shape.from, shape.to, shape.size));
   for (const auto& [from, to] : scene.links) links.push_back(fmt::format("[{},{}]", from, to));
   const auto vector = [](const Place& v) { return numberList({v[0], v[1], v[2]}, 9); };
   const auto wholes = [](const std::vector<double>& list) { return numberList(list, 10); };

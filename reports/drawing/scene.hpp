@@ -17,21 +17,24 @@ namespace gamut {
 /// One element of the drawing.
 struct Shape {
   enum class Form {
-    line,    ///< between two points
-    zigzag,  ///< the same, as a spring
-    circle,  ///< these at the second point: about it,
-    name,    ///< beside it,
-    ground,  ///< below it,
-    pin,     ///< along an axis, which stands for the first point
-    sample,  ///< all links of a sample
-    now,     ///< the boxes of all moving points
-    swept,   ///< what these sweep
-    arrow,   ///< of a direction
-    letter   ///< at its end
+    line,     ///< between two points
+    zigzag,   ///< the same, as a spring,
+    dashpot,  ///< or as a damper, both beside the line by `size`
+    circle,   ///< these at the second point: about it,
+    name,     ///< beside it,
+    sign,     ///< a drawing that does not turn,
+    pin,      ///< along an axis, which stands for the first point
+    wheel,    ///< about an axis, with a spoke along the axis behind it, of the radius `size`
+    sample,   ///< all links of a sample
+    now,      ///< the boxes of all moving points
+    swept,    ///< what these sweep
+    arrow,    ///< of a direction
+    letter    ///< at its end
   };
 
   Form form = Form::line;
   std::size_t from = 0, to = 0;  ///< two points; or the axis, the sample or the direction
+  double size = 0;               ///< in units of the paper, to a tenth
 
   // Only on paper.
   std::string look = {};     ///< attributes that stay

@@ -10,14 +10,9 @@
 namespace gamut {
 namespace {
 
-Place cross(const Place& a, const Place& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Place times(const Place& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
 constexpr double negligible = 1e-30;  // what is shorter is nothing
 
-double norm(const Place& a) { return std::hypot(a[0], a[1], a[2]); }
 Place normalised(const Place& a) { return times(a, 1 / norm(a)); }
 
 Place axis(std::size_t i) {
@@ -125,11 +120,28 @@ bool isKnown(const Place& place) {
 
 namespace {
 
+/// Of wheels, where they are at the start: a spoke and one across it, to either side.
+void addRims(const PictureResult& machine, std::vector<Place>& places) {
+  const std::size_t points = machine.points.size(), axes = machine.axes.size();
+  for (std::size_t a = 0; a + 1 < axes; ++a) {
+    const PartInfo& part = machine.parts[machine.axes[a].part];
+    if (part.kind != PartKind::wheel || machine.axes[a + 1].part != machine.axes[a].part) continue;
+    const Place centre = placeOf(machine.places.nominal, 0, points, part.to),
+                axle = placeOf(machine.places.axes, 0, axes, a), spoke = placeOf(machine.places.axes, 0, axes, a + 1);
+    for (const Place& across : {spoke, cross(axle, spoke)})
+      for (const double radius : {part.radius, -part.radius}) {
+        const Place rim = minus(centre, times(across, radius));
+        if (isKnown(rim)) places.push_back(rim);
+      }
+  }
+}
+
 View aimedView(const PictureResult& machine) {
   constexpr double margin = 64, marginUp = 36, leastHeight = 240, mostHeight = 460;
   View view;
   view.width = paperWidth;
-  const std::vector<Place> motions = knownOf(machine.places.nominal, machine.places.samples);
+  std::vector<Place> motions = knownOf(machine.places.nominal, machine.places.samples);
+  addRims(machine, motions);
   if (motions.empty()) return view;
   const Place normal = normalOf(machine, motions);
   view.isSideView = norm(normal) > 0;

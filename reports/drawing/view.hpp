@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -13,6 +14,11 @@ namespace gamut {
 using Place = std::array<double, 3>;
 
 inline double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Place cross(const Place& a, const Place& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline double norm(const Place& a) { return std::hypot(a[0], a[1], a[2]); }
 
 /// The place of point k in row i of [time][point][direction]; NaN where it is unknown.
 Place placeOf(const std::vector<double>& places, std::size_t row, std::size_t points, std::size_t k);

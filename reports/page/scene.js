@@ -8,7 +8,7 @@
 /**
  * As sceneData (reports/drawing/scene.hpp) writes it. Places are [row][point][direction] in whole units, null where unknown.
  * @typedef {{unit: number, width: number, height: number, pin: number, right: Place, up: Place, vertical: Place, isSide: boolean,
- *   time: number[], points: number, shapes: [string, number, number][], links: [number, number][], moving: number[],
+ *   time: number[], points: number, shapes: [string, number, number, number][], links: [number, number][], moving: number[],
  *   nominal: (number | null)[], axes: (number | null)[], samples: (number | null)[], lower: (number | null)[],
  *   upper: (number | null)[], sag: (number | null)[]}} Scene
  */
@@ -16,20 +16,46 @@
 /** @param {Place} a @param {Place} b */
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
+/** @param {Place} a @param {Place} b @returns {Place} */
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
 /** @param {number[]} sight */
 const pair = ([x, y]) => x.toFixed(1) + " " + y.toFixed(1);
 /** @param {Sight} a @param {Sight} b */
 const line = (a, b) => "M" + pair(a) + "L" + pair(b);
 
-/** Nine turns between two straight ends. @param {Sight} a @param {Sight} b */
-const zigzag = (a, b) => {
-  const dx = b[0] - a[0], dy = b[1] - a[1], length = Math.hypot(dx, dy), end = 0.14;
+/** Places as seen from a straight line: along its length as a share, aside in units of the paper. @param {Sight} a @param {Sight} b */
+const beside = (a, b) => {
+  const dx = b[0] - a[0], dy = b[1] - a[1], length = Math.hypot(dx, dy);
+  return {
+    length,
+    /** @param {number} along @param {number} aside */
+    at: (along, aside) => {
+      const part = aside / length;
+      return pair([a[0] + along * dx - part * dy, a[1] + along * dy + part * dx]);
+    }
+  };
+};
+
+/** Nine turns between two straight ends, beside the line. @param {Sight} a @param {Sight} b @param {number} aside */
+const zigzag = (a, b, aside) => {
+  const { length, at } = beside(a, b), end = 0.14;
   let path = "M" + pair(a);
-  for (let i = 0; length > 1 && i <= 18; ++i) {
-    const along = end + (1 - 2 * end) * i / 18, aside = (i % 2 === 0 ? 0 : i % 4 === 1 ? 6 : -6) / length;
-    path += "L" + pair([a[0] + along * dx - aside * dy, a[1] + along * dy + aside * dx]);
-  }
+  if (length > 1 && aside !== 0) path += "L" + at(0, aside);
+  for (let i = 0; length > 1 && i <= 18; ++i)
+    path += "L" + at(end + (1 - 2 * end) * i / 18, aside + (i % 2 === 0 ? 0 : i % 4 === 1 ? 6 : -6));
+  if (length > 1 && aside !== 0) path += "L" + at(1, aside);
   return path + "L" + pair(b);
+};
+
+/** A cylinder, which is open towards the second point, and a piston in it. @param {Sight} a @param {Sight} b @param {number} aside */
+const dashpot = (a, b, aside) => {
+  const { length, at } = beside(a, b), half = 5, closed = 0.36, piston = 0.52, open = 0.66;
+  if (!(length > 1)) return line(a, b);
+  return "M" + pair(a) + "L" + at(0, aside) + "L" + at(closed, aside) +
+    "M" + [[open, half], [closed, half], [closed, -half], [open, -half]].map(([x, y]) => at(x, aside + y)).join("L") +
+    "M" + at(piston, aside + (half - 1)) + "L" + at(piston, aside + (1 - half)) +
+    "M" + at(piston, aside) + "L" + at(1, aside) + "L" + pair(b);
 };
 
 /** The least convex polygon that holds all of these. @param {Sight[]} sights */
@@ -126,19 +152,36 @@ export class Picture {
     return { x: (x + 28 * dx).toFixed(1), y: (y + 28 * dy + 4).toFixed(1) };
   }
 
-  /** What moves of an element; null where it is not seen. @param {[string, number, number]} shape @returns {Record<string, string> | null} */
-  attributesOf([form, from, to]) {
+  /** Its rim, and a spoke; nothing where the axle or the spoke is unknown. @param {Sight} centre @param {number} number @param {number} radius */
+  wheel([x, y], number, radius) {
+    const count = axesOf(this.scene), axle = this.at(this.scene.axes, this.stance.row, number, count),
+      spoke = this.at(this.scene.axes, this.stance.row, number + 1, count), corners = 32;
+    if (!axle || !spoke) return "";
+    const [ux, uy] = this.direction(spoke), [vx, vy] = this.direction(cross(axle, spoke));
+    /** @type {Sight[]} */
+    const rim = Array.from({ length: corners }, (_, k) => {
+      const a = radius * Math.cos(2 * Math.PI * k / corners), b = radius * Math.sin(2 * Math.PI * k / corners);
+      return [x + a * ux + b * vx, y + a * uy + b * vy];
+    });
+    return "M" + rim.map(pair).join("L") + "Z" + line([x, y], [x + radius * ux, y + radius * uy]);
+  }
+
+  /** What moves of an element; null where it is not seen. @param {[string, number, number, number]} shape @returns {Record<string, string> | null} */
+  attributesOf([form, from, to, size]) {
     if (form === "sample") return { d: this.sample(from) };
     if (form === "now" || form === "swept") return { d: this[form]() };
     if (form === "arrow" || form === "letter") return this.directionShape(form, from);
     const { nominal, axes, pin } = this.scene, { row } = this.stance;
-    const b = this.point(nominal, row, to), a = form === "pin" ? b : this.point(nominal, row, from);
+    const b = this.point(nominal, row, to), a = form === "pin" || form === "wheel" ? b : this.point(nominal, row, from);
     if (!a || !b) return null;
     const [x, y] = b;
     if (form === "circle") return { cx: x.toFixed(1), cy: y.toFixed(1) };
     if (form === "name") return { x: (x + 15).toFixed(1), y: (y - 9).toFixed(1) };
-    if (form === "ground") return { transform: "translate(" + pair(b) + ")" };
-    if (form !== "pin") return { d: form === "zigzag" ? zigzag(a, b) : line(a, b) };
+    if (form === "sign") return { transform: "translate(" + pair(b) + ")" };
+    if (form === "wheel") return { d: this.wheel(b, from, size) };
+    if (form === "zigzag") return { d: zigzag(a, b, size) };
+    if (form === "dashpot") return { d: dashpot(a, b, size) };
+    if (form !== "pin") return { d: line(a, b) };
     const [dx, dy] = this.direction(this.at(axes, row, from, axesOf(this.scene))).map(part => pin * part);
     return { d: line([x - dx, y - dy], [x + dx, y + dy]) };
   }

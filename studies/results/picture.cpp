@@ -30,19 +30,23 @@ std::vector<Field> fieldsOfPart(PartInfo& p) {
       {"part", &p.name, unit::none, "name of the element"},
       {"type", &p.type, unit::none, "its type in the study"},
       {"kind", Choice::of(p.kind), unit::none,
-       "\"rigid\", \"joint\", \"mass\" (from a frame to its centre), \"spring\", \"shape\" or \"play\""},
+       "\"rigid\", \"joint\", \"mass\" (from a frame to its centre), \"spring\", \"shape\", \"play\", \"damper\", "
+       "\"wheel\" or "
+       "\"motor\""},
       {"from", &p.from, unit::none, "index of the point where it begins", allowed::count, scale::point},
       {"to", &p.to, unit::none, "index of the point where it ends", allowed::count, scale::point},
-      {"turns", &p.turns, unit::none, "of a joint: in how many ways it turns", allowed::count},
-      {"slides", &p.slides, unit::none, "of a joint: in how many ways it slides", allowed::count},
+      {"turns", &p.turns, unit::none, "of a joint, or of what acts at one: in how many ways it turns", allowed::count},
+      {"slides", &p.slides, unit::none, "of a joint, or of what acts at one: in how many ways it slides",
+       allowed::count},
       {"mass", &p.mass, "kg", "nominal mass", allowed::finite},
       fresh({"told", &p.told, unit::none, "unit in which the page tells the mass, as the study states it; empty: kg"}),
       fresh({"radius", &p.radius, "m",
-             "of a shape, about the line between its points, or of play, to either side, nominal", allowed::finite})};
+             "of a shape, about the line between its points, of play, to either side, or of a wheel, nominal",
+             allowed::finite})};
 }
 
 std::vector<Field> fieldsOfAxis(AxisInfo& a) {
-  return {{"axis", &a.name, unit::none, "name of a joint's axis"},
+  return {{"axis", &a.name, unit::none, "name of a joint's axis, or of a wheel's axle or spoke"},
           {"joint", &a.part, unit::none, "index of the part", allowed::count, scale::part}};
 }
 
@@ -75,7 +79,7 @@ void PictureResult::describe(std::vector<Group>& groups) {
       listOf("/machine/directions", "in which places are measured", scale::direction, directions, fieldsOfDirection));
   groups.push_back(listOf("/machine/points", "what has a place of its own", scale::point, points, fieldsOfPoint));
   groups.push_back(listOf("/machine/parts", "elements between two points", scale::part, parts, fieldsOfPart));
-  groups.push_back(listOf("/machine/axes", "of the joints", scale::axis, axes, fieldsOfAxis));
+  groups.push_back(listOf("/machine/axes", "of joints and wheels", scale::axis, axes, fieldsOfAxis));
   groups.push_back(groupOf("/machine/places",
                            "where the points are, in the inertial frame, at some of the output times", places,
                            fieldsOfPlaces));

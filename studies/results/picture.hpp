@@ -22,24 +22,25 @@ struct PointInfo {
 };
 
 /// In the order of Skeleton::Kind.
-enum class PartKind : unsigned char { rigid, joint, mass, spring, shape, play };
+enum class PartKind : unsigned char { rigid, joint, mass, spring, shape, play, damper, wheel, motor };
 template <>
-inline constexpr std::array<std::string_view, 6> words<PartKind>{"rigid", "joint", "mass", "spring", "shape", "play"};
+inline constexpr std::array<std::string_view, 9> words<PartKind>{"rigid", "joint",  "mass",  "spring", "shape",
+                                                                 "play",  "damper", "wheel", "motor"};
 
 /// Between two points, by index.
 struct PartInfo {
   std::string name, type;  ///< as in the study
   PartKind kind = PartKind::rigid;
   std::uint64_t from = 0, to = 0;
-  std::int64_t turns = 0, slides = 0;  ///< of a joint
+  std::int64_t turns = 0, slides = 0;  ///< of a joint, or of what acts at one
   double mass = 0;                     ///< nominal, kg
   std::string told = {};               ///< unit in which people are told of it, as the study states it; empty: kg
-  double radius = 0;                   ///< of a shape, about the line between the points, or of play, nominal, m
+  double radius = 0;  ///< of a shape, about the line between the points, of play or a wheel, nominal, m
 };
 
 struct AxisInfo {
-  std::string name;        ///< "hinge.axis"
-  std::uint64_t part = 0;  ///< the joint
+  std::string name;        ///< "hinge.axis"; of a wheel "rotor.axle", then "rotor.spoke"
+  std::uint64_t part = 0;  ///< the joint or the wheel
 };
 
 /// At some of the output times, all in the inertial frame, [time][point][direction] unless said otherwise, m. NaN where

@@ -15,6 +15,9 @@
 namespace gamut {
 namespace {
 
+/// A radius of a body that may have no mass is unknown, and not drawn.
+double finiteOrZero(double x) { return std::isfinite(x) ? x : 0; }
+
 void describeParts(const Study& study, const Skeleton& skeleton, PictureResult& machine) {
   const Mechanism& mechanism = study.mechanism;
   const auto nominal = [&](const Expression& number) { return midpoint(mechanism.rangeOf(number)); };
@@ -27,7 +30,8 @@ void describeParts(const Study& study, const Skeleton& skeleton, PictureResult& 
     const auto told = study.units.find(part.name + ".mass");
     machine.parts.push_back({printable(part.name), printable(part.type), static_cast<PartKind>(part.kind), part.from,
                              part.to, part.turns, part.slides, nominal(part.mass),
-                             told == study.units.end() ? std::string() : told->second, nominal(part.radius)});
+                             told == study.units.end() ? std::string() : told->second,
+                             finiteOrZero(nominal(part.radius))});
   }
   for (const Skeleton::JointAxis& axis : skeleton.axes) machine.axes.push_back({printable(axis.name), axis.part});
 }

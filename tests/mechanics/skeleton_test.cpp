@@ -134,6 +134,63 @@ TEST(Skeleton, SaysWhatEachPartIs) {
   EXPECT_EQ(skeleton.axes[3].frame, "U");
 }
 
+TEST(Skeleton, ShowsWhatActsAtJoints) {
+  Mechanism m;
+  m.add(Prismatic{"slide", "inertial", "cart", axisY, 0.1});
+  m.add(Revolute{"hinge", "cart", "arm", axisX});
+  m.add(Cylindrical{"sleeve", "arm", "S", axisZ, 0.1});
+  m.add(JointSpring{"strut", "slide", 10.0, 0.0, 2.0});
+  m.add(JointSpring{"brake", "hinge", 0.0, 0.0, 2.0});
+  m.add(JointSpring{"wound", "hinge.angle", 3.0});
+  m.add(JointSpring{"either", "sleeve.displacement", 3.0});
+  m.add(Motor{.name = "motor", .joint = "hinge", .moment = 1.0});
+  const Skeleton skeleton = skeletonOf(m);
+  std::vector<std::string> parts;
+  std::vector<Kind> kinds;
+  for (std::size_t i = 3; i < skeleton.parts.size(); ++i) {
+    parts.push_back(skeleton.parts[i].name);
+    kinds.push_back(skeleton.parts[i].kind);
+  }
+  EXPECT_THAT(parts, ElementsAre("strut", "strut", "brake", "wound", "motor"));
+  EXPECT_THAT(kinds, ElementsAre(Kind::spring, Kind::damper, Kind::damper, Kind::spring, Kind::motor));
+  for (const std::size_t i : {3, 4}) {
+    EXPECT_EQ(skeleton.points[skeleton.parts[i].from].name, "inertial");
+    EXPECT_EQ(skeleton.points[skeleton.parts[i].to].name, "cart");
+    EXPECT_EQ(skeleton.parts[i].slides, 1);
+  }
+  EXPECT_EQ(skeleton.parts[5].turns, 1);
+  EXPECT_EQ(skeleton.points[skeleton.parts[7].to].name, "cart");
+}
+
+/// What turns about its own axis, and has a moment of inertia about it, is a disc of that moment; nothing else is.
+TEST(Skeleton, ShowsWhatTurnsAboutItselfAsAWheel) {
+  Mechanism m;
+  m.add(Revolute{"hinge", "inertial", "arm", Axis(0, 0, -1)});
+  m.add(Link{"rod", "arm", "end", {1.0, 0.0, 0.0}});
+  m.add(Revolute{"axle", "end", "rim", axisY});
+  m.add(Mass{"rotor", "rim", 2.0, {0.0, 0.0, 0.0}, {0.02, 0.04, 0.02, 0.0, 0.0, 0.0}});
+  m.add(Mass{"point", "arm", 2.0});
+  m.add(Mass{"aside", "arm", 2.0, {0.1, 0.0, 0.0}, {0.02, 0.04, 0.02, 0.0, 0.0, 0.0}});
+  m.add(Mass{"bob", "end", 2.0, {0.0, 0.0, 0.0}, {0.02, 0.04, 0.02, 0.0, 0.0, 0.0}});
+  m.add(Mass{"drum", "arm", 0.5, {0.0, 0.0, 0.0}, {0.005, 0.005, 0.01, 0.0, 0.0, 0.0}});
+  const Skeleton skeleton = skeletonOf(m);
+  std::vector<const Skeleton::Part*> wheels;
+  for (const Skeleton::Part& part : skeleton.parts)
+    if (part.kind == Kind::wheel) wheels.push_back(&part);
+  ASSERT_EQ(wheels.size(), 2u);
+  EXPECT_EQ(wheels[0]->name, "rotor");
+  EXPECT_TRUE(contains(m.rangeOf(wheels[0]->radius), 0.2));  // m r²/2 = 0.04 kg m²
+  EXPECT_LT(width(m.rangeOf(wheels[0]->radius)), 1e-15);
+  EXPECT_EQ(wheels[1]->name, "drum");
+  EXPECT_TRUE(contains(m.rangeOf(wheels[1]->radius), 0.2));
+  std::vector<std::string> axes;
+  for (const Skeleton::JointAxis& axis : skeleton.axes) axes.push_back(axis.name);
+  EXPECT_THAT(axes, ElementsAre("hinge.axis", "axle.axis", "rotor.axle", "rotor.spoke", "drum.axle", "drum.spoke"));
+  EXPECT_EQ(skeleton.axes[2].axis.index(), 1);
+  EXPECT_EQ(skeleton.axes[3].axis.index(), 2);
+  EXPECT_EQ(&skeleton.parts[skeleton.axes[4].part], wheels[1]);
+}
+
 /// Two arms that a pin holds together at a point of one of them, and a rod from there to the ground.
 TEST(Skeleton, ShowsWhereLoopsClose) {
   Mechanism m;

@@ -45,12 +45,24 @@ TEST(Vectors, NumbersAreWrittenAsTheScreenReadsThem) {
   for (const json& v : vectors("decimals")) EXPECT_EQ(Decimals(v["scale"]).value(v["whole"]), v["value"].get<double>());
 }
 
-/// A machine in space whose tip is unknown at the second time, as is a sample at the third, and a pin's axis.
+/// A machine in space whose tip is unknown at the second time, as is a sample at the third, and a pin's axis. A wheel
+/// turns at its elbow, a damper stands beside its spring, a motor and a spring at its shoulder.
 Scene scene() {
   PictureResult machine = example::machine(true, 3).picture;
   Places& p = machine.places;
+  const std::uint64_t wheel = machine.parts.size();
+  machine.parts.push_back({"rotor", "mass", PartKind::wheel, 1, 1, 0, 0, 0, "", 0.3});
+  machine.parts.push_back({"rubber", "spring-damper", PartKind::damper, 3, 2});
+  machine.parts.push_back({"motor", "motor", PartKind::motor, 0, 0, 1});
+  machine.parts.push_back({"return", "joint-spring", PartKind::spring, 0, 0, 1});
+  for (const char* name : {"rotor.axle", "rotor.spoke"}) machine.axes.push_back({name, wheel});
+  for (const std::size_t row : {2, 1, 0}) {
+    const double turn = 0.5 + static_cast<double>(row);
+    const std::vector<double> directions{1, 0, 0, 0, std::cos(turn), std::sin(turn)};
+    p.axes.insert(p.axes.begin() + static_cast<std::ptrdiff_t>(6 * row + 6), directions.begin(), directions.end());
+  }
   const std::size_t row = 3 * machine.points.size();
-  p.nominal[row + 6] = p.lower[row + 7] = p.samples[2 * row + 4] = p.axes[6] = NAN;
+  p.nominal[row + 6] = p.lower[row + 7] = p.samples[2 * row + 4] = p.axes[12] = NAN;
   return sceneOf(machine);
 }
 

@@ -81,6 +81,67 @@ TEST(MachinePicture, ShowsPlay) {
                          HasSubstr("class=\"play\" r=\"" + radius.str() + "\"")));
 }
 
+/// A strut, and what slides at its end on a spring and a damper: these reach from its foot, unless it carries
+/// something.
+TEST(MachinePicture, ShowsSpringsAtTheirLength) {
+  PictureResult m;
+  m.present = m.places.present = true;
+  m.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
+  m.points = {{"ground", true, true}, {"top", true, false}, {"seat", false, false}};
+  m.parts = {{"strut", "link", PartKind::rigid, 0, 1},
+             {"slide", "prismatic", PartKind::joint, 1, 2, 0, 1},
+             {"leg", "joint-spring", PartKind::spring, 1, 2, 0, 1},
+             {"leg", "joint-spring", PartKind::damper, 1, 2, 0, 1}};
+  m.axes = {{"slide.axis", 1}};
+  m.places.time = {0, 1};
+  m.places.nominal = {0, 0, 0, 0, 0, 0.4, 0, 0, 0.5, 0, 0, 0, 0, 0, 0.4, 0, 0, 0.3};
+  m.places.axes = {0, 0, 1, 0, 0, 1};
+  const auto shapeOf = [&](Shape::Form form) {
+    const Scene scene = sceneOf(m);
+    const auto found = std::ranges::find(scene.shapes, form, &Shape::form);
+    return found == scene.shapes.end() ? Shape{} : *found;
+  };
+  using enum Shape::Form;
+  EXPECT_EQ(shapeOf(zigzag).from, 0u);
+  EXPECT_EQ(shapeOf(zigzag).to, 2u);
+  EXPECT_LT(shapeOf(zigzag).size, 0);
+  EXPECT_EQ(shapeOf(dashpot).from, 0u);
+  EXPECT_GT(shapeOf(dashpot).size, 0);
+  EXPECT_EQ(count(drawn(m), "class=\"link\""), 0u);
+  m.places.axes = {0, 1, 0, 0, 1, 0};  // across the strut
+  EXPECT_EQ(shapeOf(zigzag).from, 1u);
+  m.places.axes = {0, 0, 1, 0, 0, 1};
+  m.parts.push_back({"sensor", "mass", PartKind::mass, 1, 1, 0, 0, 1});
+  EXPECT_EQ(shapeOf(zigzag).from, 1u);
+  EXPECT_EQ(count(drawn(m), "class=\"link\""), 1u);
+  m.parts.erase(m.parts.begin() + 3);
+  EXPECT_EQ(shapeOf(zigzag).size, 0);
+  EXPECT_EQ(shapeOf(dashpot).form, line) << "there is none";
+}
+
+/// On paper as large as it is; one whose size is unknown is not drawn.
+TEST(MachinePicture, ShowsWheelsAndWhatTurnsThem) {
+  PictureResult m = moving({{0, 0, 0}, {0, 0, 0}});
+  m.parts.push_back({"weight", "mass", PartKind::wheel, 0, 0, 0, 0, 0, "", 0.2});
+  m.parts.push_back({"drive", "motor", PartKind::motor, 0, 0, 1});
+  m.parts.push_back({"return", "joint-spring", PartKind::spring, 0, 0, 1});
+  m.axes = {{"weight.axle", 1}, {"weight.spoke", 1}};
+  m.places.axes = {1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1};
+  const Scene scene = sceneOf(m);
+  const auto wheel = std::ranges::find(scene.shapes, Shape::Form::wheel, &Shape::form);
+  ASSERT_NE(wheel, scene.shapes.end());
+  EXPECT_NEAR(wheel->size, 0.2 * scene.view.scale, 0.05);
+  EXPECT_GT(scene.view.scale, 0) << "a wheel alone has a size";
+  EXPECT_GT(scene.view.height, 2 * wheel->size);
+  const std::string svg = drawn(m);
+  EXPECT_EQ(count(svg, "class=\"motor\""), 1u);
+  EXPECT_EQ(count(svg, "class=\"coil\""), 1u);
+  EXPECT_THAT(svg, HasSubstr("class=\"mass\" r=\"2.5\""));
+  m.parts[1].radius = 0;
+  EXPECT_EQ(count(drawn(m), "class=\"wheel\""), 0u);
+  EXPECT_THAT(drawn(m), Not(HasSubstr("r=\"2.5\"")));
+}
+
 TEST(MachinePicture, HoldsNothingThatIsFree) {
   PictureResult m = moving({{0, 0, 0}});
   m.points.insert(m.points.begin(), {"inertial", true, true});
