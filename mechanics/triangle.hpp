@@ -17,13 +17,32 @@
 // Source: A. Kecskeméthy, T. Krupp, M. Hiller, Multibody System Dynamics 1 (1997), 23 (pairs of joints).
 #pragma once
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "mechanics/element.hpp"
 
 namespace gamut {
+
+/// What the angle of a joint is never half a turn away from: `middle` [rad] and so many times angles that drives give.
+struct AngleCourse {
+  double middle = 0;
+  std::vector<std::pair<std::string, int>> turns;  ///< coordinates
+};
+/// By coordinate.
+using AngleCourses = std::map<std::string, AngleCourse, std::less<>>;
+
+/// A hinge as a triangle has put it.
+template <class S>
+struct PlacedHinge {
+  Variable<S>* angle;
+  S cosine, sine;
+};
 
 /// Of double, to learn how a machine is assembled, and of Recorded.
 template <class S>
@@ -43,6 +62,8 @@ class Triangle {
   virtual S side() const = 0;
   /// After given(): puts the joints to where the loop is closed, with n of this sign.
   virtual void place(double side) = 0;
+  /// Its hinges as they were put last.
+  virtual const std::vector<PlacedHinge<S>>& placed() const = 0;
   /// The joints stand by their coordinates again.
   virtual void release() = 0;
 };
