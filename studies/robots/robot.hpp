@@ -44,15 +44,16 @@ struct Robot {
     Interval mass = 0.0;                                               ///< kg
     std::array<Interval, 6> inertia = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};  ///< xx, yy, zz, xy, yz, zx, in axes of `place`
   };
-  /// A box, a sphere, a cylinder or a capsule along z about its origin.
+  /// A box, a sphere, a cylinder or a capsule along z about its origin; the hull of a mesh.
   struct Shape {
-    enum class Kind { box, sphere, cylinder, capsule };
+    enum class Kind { box, sphere, cylinder, capsule, hull };
     Kind kind = Kind::box;
     int line = 0;
     std::string file = {};
     Place place;                                     ///< in the link
     std::array<Interval, 3> size = {0.0, 0.0, 0.0};  ///< m, of a box
     Interval radius = 0.0, length = 0.0;             ///< m, of others
+    std::vector<std::array<double, 3>> points = {};  ///< m, of a hull: all within `radius` of theirs belongs to it
   };
   struct Link {
     std::string name;

@@ -159,6 +159,12 @@ class RobotElements {
       case Robot::Shape::Kind::sphere:
         add(Sphere{name, origin, shape.radius}, shape);
         break;
+      case Robot::Shape::Kind::hull: {
+        std::vector<ExpressionVector> points;
+        for (const auto& [x, y, z] : shape.points) points.push_back({x, y, z});
+        add(Hull{name, origin, std::move(points), shape.radius}, shape);
+        break;
+      }
       case Robot::Shape::Kind::cylinder:
       case Robot::Shape::Kind::capsule:
         add(Capsule{name, origin, shape.radius, shape.length, axisZ}, shape);

@@ -9,6 +9,7 @@
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/elements/inertia.hpp"
+#include "studies/robots/mesh.hpp"
 #include "studies/robots/robot_formats.hpp"
 #include "studies/robots/robot_parts.hpp"
 #include "studies/words.hpp"
@@ -24,7 +25,8 @@ constexpr std::pair<std::string_view, Robot::Type> urdfTypes[] = {
 
 class UrdfReader {
  public:
-  UrdfReader(const XmlSource& source, bool takesShapes) : source_(source), takesShapes_(takesShapes) {
+  UrdfReader(const XmlSource& source, const NamedTexts& meshes, bool takesShapes)
+      : source_(source), texts_(meshes), takesShapes_(takesShapes) {
     robot_.file = source.name();
   }
 
@@ -63,7 +65,16 @@ class UrdfReader {
 
   void say() {
     shapes_.say(source_, ": shapes and meshes are left out", robot_.notes);
-    meshes_.say(source_, ": left out of <collision>, of which boxes, spheres and cylinders are taken", robot_.notes);
+    meshes_.say(source_,
+                ": left out of <collision>, of which boxes, spheres, cylinders and meshes of STL and OBJ files at hand "
+                "are taken",
+                robot_.notes);
+    hulls_.say(
+        source_,
+        fmt::format(": taken as convex hulls of 40 points at most with all within {:.2g} mm of these, which hold "
+                    "all of them: distances are those or less, and coming closer is not proved by them",
+                    1e3 * farthest_),
+        robot_.notes);
     cylinders_.say(source_, ": taken as capsules that hold them, with half a sphere more at either end", robot_.notes);
     elements_.say(source_, ": left out, as they say nothing of how bodies and joints move", robot_.notes);
     attributes_.say(source_, ": left out, as URDF knows no such attribute", robot_.notes);
@@ -133,11 +144,46 @@ class UrdfReader {
       shape.kind = Robot::Shape::Kind::cylinder;
       shape.radius = lengths("radius", 1).front();
       shape.length = lengths("length", 1).front();
+    } else if (word == "mesh" && form->Attribute("filename") != nullptr &&
+               texts_.contains(form->Attribute("filename"))) {
+      lookAt(*form, {"filename", "scale"}, {});
+      takeHull(*form, texts_.at(form->Attribute("filename")), shape);
     } else {
       meshes_.add(fmt::format("<{}>", shortened(word)), form->GetLineNum());
       return;
     }
     link.shapes.push_back(shape);
+  }
+
+  /// With what its points are off from doubles, after scaling, in its radius.
+  void takeHull(const Tag& mesh, const std::string& text, Robot::Shape& shape) {
+    const std::string file = mesh.Attribute("filename");
+    if (text.starts_with(brokenMesh))
+      source_.fail(mesh.GetLineNum(), fmt::format("the mesh {} {}", inQuotes(file), text.substr(brokenMesh.size())),
+                   "a mesh with points, not all in one plane, in an STL or OBJ file");
+    std::vector<Interval> scale = {1.0, 1.0, 1.0};
+    if (mesh.Attribute("scale") != nullptr) scale = source_.numbers(mesh, "scale", 3);
+    double largest = 0, off = 0;
+    for (const Interval& factor : scale) {
+      if (contains(factor, 0.0))
+        source_.fail(mesh.GetLineNum(), fmt::format("the scale of the mesh {} is zero", inQuotes(file)),
+                     "three numbers that are not");
+      largest = std::max(largest, magnitude(factor));
+    }
+    const MeshHull hull = hullIn(text);
+    shape.kind = Robot::Shape::Kind::hull;
+    for (const std::array<double, 3>& point : hull.points) {
+      std::array<double, 3>& scaled = shape.points.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Interval exact = scale[i] * point[i];
+        scaled[i] = midpoint(exact);
+        off = std::max(off, magnitude(exact - scaled[i]));
+      }
+    }
+    // √3 < 2: of three coordinates.
+    shape.radius = Interval((Interval(hull.radius) * largest + Interval(2.0) * off).upper());
+    farthest_ = std::max(farthest_, shape.radius.upper());
+    hulls_.add("<mesh>", mesh.GetLineNum());
   }
 
   Robot::Inertial readInertial(const Tag& element, const std::string& link) {
@@ -252,13 +298,17 @@ class UrdfReader {
   }
 
   const XmlSource& source_;
+  const NamedTexts& texts_;
   Robot robot_;
   bool takesShapes_;
-  LeftOut shapes_, meshes_, cylinders_, elements_, attributes_, limits_;
+  double farthest_ = 0;  ///< m, of radii of hulls
+  LeftOut shapes_, meshes_, hulls_, cylinders_, elements_, attributes_, limits_;
 };
 
 }  // namespace
 
-Robot readUrdf(const XmlSource& source, bool takesShapes) { return UrdfReader(source, takesShapes).read(); }
+Robot readUrdf(const XmlSource& source, const NamedTexts& meshes, bool takesShapes) {
+  return UrdfReader(source, meshes, takesShapes).read();
+}
 
 }  // namespace gamut

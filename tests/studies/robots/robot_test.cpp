@@ -2,6 +2,8 @@
 // is said in one line.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mechanics/assembly.hpp"
@@ -100,8 +102,8 @@ TEST(RobotShapes, AreTakenIfTheyAreAskedFor) {
   const Robot robot = readRobotText(shapedRobot(armsShapes), "r.urdf", true);
   ASSERT_EQ(robot.links[1].shapes.size(), 2U);
   EXPECT_THAT(robot.notes,
-              ElementsAre("r.urdf:6: note: <mesh>: left out of <collision>, of which boxes, spheres and cylinders are "
-                          "taken",
+              ElementsAre("r.urdf:6: note: <mesh>: left out of <collision>, of which boxes, spheres, cylinders and "
+                          "meshes of STL and OBJ files at hand are taken",
                           "r.urdf:5: note: <cylinder>: taken as capsules that hold them, with half a sphere more at "
                           "either end"));
 
@@ -129,6 +131,88 @@ TEST(RobotShapes, AreTakenIfTheyAreAskedFor) {
   EXPECT_TRUE(isEqual(read.nominal("arm.collision.2.radius"), Interval(0.25)));
   EXPECT_TRUE(isEqual(read.nominal("arm.collision.1.origin.z"), Interval(-1.0)));
   EXPECT_TRUE(isEqual(read.nominal("ground.collision.radius"), Interval(0.125)));
+}
+
+/// A robot with this mesh, as it is read.
+Robot robotWithMesh(const std::string& name, const std::string& content, const std::string& further = "") {
+  const TemporaryFolder folder;
+  folder.write(name, content);
+  const std::string file = folder.write("r.urdf", shapedRobot("<collision><geometry><mesh filename=\"package://arms/" +
+                                                              name + "\"" + further + "/></geometry></collision>"));
+  return readRobotText(textOfRobot(file), "r.urdf", true);
+}
+
+using ExactPoint = std::array<mpq_class, 3>;
+
+/// Whether nothing of the mesh lies beyond the hull and its radius in any of many directions, in rationals.
+void expectHolds(const Robot::Shape& hull, const std::vector<ExactPoint>& mesh) {
+  const auto along = [](const ExactPoint& n, const auto& p) {
+    return mpq_class(n[0] * mpq_class(p[0]) + n[1] * mpq_class(p[1]) + n[2] * mpq_class(p[2]));
+  };
+  const mpq_class radius(hull.radius.lower());
+  for (int x = -3; x <= 3; ++x)
+    for (int y = -3; y <= 3; ++y)
+      for (int z = -3; z <= 3; ++z) {
+        const ExactPoint n = {x, y, z};
+        mpq_class own = along(n, hull.points[0]), others = along(n, mesh[0]);
+        for (const auto& point : hull.points) own = std::max(own, along(n, point));
+        for (const ExactPoint& point : mesh) others = std::max(others, along(n, point));
+        const mpq_class beyond = others - own;
+        EXPECT_LE(beyond > 0 ? mpq_class(beyond * beyond) : mpq_class(0), radius * radius * (x * x + y * y + z * z));
+      }
+}
+
+TEST(RobotShapes, HoldMeshesByHullsOfSomeOfTheirPoints) {
+  // Half sines, so that a bent sheet and a closed one come of it, in thousandths: decimals that no doubles are.
+  std::string text = "# sheet\n";
+  std::vector<ExactPoint> mesh;
+  for (int i = 0; i < 40; ++i)
+    for (int k = 0; k < 40; ++k) {
+      const auto thousandths = [](double x) { return static_cast<int>(std::lround(1000 * x)); };
+      const int x = thousandths(std::sin(0.08 * i) * std::cos(0.16 * k)), y = thousandths(std::sin(0.08 * i + 1)),
+                z = thousandths(std::sin(0.08 * i) * std::sin(0.16 * k));
+      text += "v " + std::to_string(x) + "e-3 " + std::to_string(y) + "e-3 +" + std::to_string(std::abs(z)) + "e-3\n";
+      mesh.push_back({mpq_class(x, 1000) * mpq_class(1, 10), mpq_class(y, 1000) * mpq_class(-3, 10),
+                      mpq_class(std::abs(z), 1000) * 2});
+      for (mpq_class& coordinate : mesh.back()) coordinate.canonicalize();
+    }
+  const Robot robot = robotWithMesh("sheet.OBJ", text, " scale=\"0.1 -0.3 2\"");
+  ASSERT_EQ(robot.links[1].shapes.size(), 1U);
+  const Robot::Shape& hull = robot.links[1].shapes[0];
+  EXPECT_EQ(hull.points.size(), 40U);
+  EXPECT_LT(hull.radius.upper(), 0.2);
+  expectHolds(hull, mesh);
+  EXPECT_THAT(robot.notes.front(), StartsWith("r.urdf:4: note: <mesh>: taken as convex hulls of 40 points at most"));
+}
+
+TEST(RobotShapes, HoldMeshesOfFewPointsByTheseAlone) {
+  std::string facets = "solid cube\n";
+  for (const char* corner : {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 0", "1 0 1", "0 1 1", "1 1 1", "0.5 0.5 0.5"})
+    facets += std::string("vertex ") + corner + "\n";
+  const Robot robot = robotWithMesh("cube.stl", facets);
+  EXPECT_EQ(robot.links[1].shapes.at(0).points.size(), 9U);
+  EXPECT_LT(robot.links[1].shapes[0].radius.upper(), 1e-15);
+}
+
+TEST(RobotShapes, RefuseBrokenMeshesInOneLine) {
+  const auto complaint = [](const std::string& name, const std::string& content, const std::string& further = "") {
+    try {
+      robotWithMesh(name, content, further);
+    } catch (const StudyError& error) {
+      return std::string(error.what());
+    }
+    return std::string("it was read");
+  };
+  const std::string mesh = "r.urdf:4: the mesh 'package://arms/", corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  EXPECT_THAT(complaint("m.stl", "abc"), StartsWith(mesh + "m.stl' is too short for STL; expected a mesh with points"));
+  EXPECT_THAT(complaint("m.stl", std::string(100, 'x')), StartsWith(mesh + "m.stl' says to have "));
+  EXPECT_THAT(complaint("m.obj", "v 0 0 nothing\n"), StartsWith(mesh + "m.obj' has 'nothing' for a coordinate"));
+  EXPECT_THAT(complaint("m.obj", "v 0 0\n"), StartsWith(mesh + "m.obj' has a point of less than three coordinates"));
+  EXPECT_THAT(complaint("m.obj", "f 1 2 3\n"), StartsWith(mesh + "m.obj' has no points"));
+  EXPECT_THAT(complaint("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"),
+              StartsWith(mesh + "m.obj' has points that lie in one plane"));
+  EXPECT_THAT(complaint("m.obj", corners, " scale=\"1 0 1\""), StartsWith("r.urdf:4: the scale of the mesh "));
+  EXPECT_EQ(complaint("m.obj", corners), "it was read");
 }
 
 TEST(RobotShapes, SayWhatIsWrongInOneLine) {
