@@ -240,7 +240,7 @@ class ComparisonPage {
       begin = end + 1;
     }
     return fmt::format(
-        "<section id=\"found\" class=\"first\" aria-label=\"What changed\">\n<p class=\"lead\">{}</p>\n{}"
+        "<section id=\"found\" class=\"first\" aria-label=\"What changed\">\n<h2 class=\"lead\">{}</h2>\n{}"
         "<p>{}</p>\n<p>{}</p>\n{}</section>\n",
         escapeHtml(leadText()), changesList(), escapeHtml(comparisonQuestion(difference_)),
         escapeHtml(comparisonSentence(difference_)), notes.empty() ? "" : "<ul class=\"notes\">\n" + notes + "</ul>\n");

@@ -420,7 +420,7 @@ std::string originSection(const SweepResults& sweep) {
     table.row(name, {value});
   return fmt::format(
       "<section class=\"origin\">\n<h2>Provenance</h2>\n{}<details><summary>The study, word for word</summary>\n"
-      "<pre>{}</pre></details>\n</section>\n",
+      "<pre tabindex=\"0\">{}</pre></details>\n</section>\n",
       table.html(), escapeHtml(sweep.studyText));
 }
 
@@ -476,7 +476,7 @@ std::string renderSweep(const SweepResults& sweep) {
                      {"style", std::string(page::style)},
                      {"layers", std::string(looks)},
                      {"plottingStyle", ""},
-                     {"first", fmt::format("<section class=\"first\">\n<p class=\"lead\">{}</p>\n{}</section>\n",
+                     {"first", fmt::format("<section class=\"first\">\n<h2 class=\"lead\">{}</h2>\n{}</section>\n",
                                            leadOf(sweep), stateList(sweep))},
                      {"chips", ""},
                      {"links", ""},

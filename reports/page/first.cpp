@@ -292,7 +292,7 @@ std::string firstSection(const Report& report) {
   const Foremost foremost = foremostOf(results);
   const bool isThere = foremost.output < results.outputs.size() && !results.time.empty();
   return fmt::format(
-             "<section id=\"found\" class=\"first {}\" aria-label=\"What was found\">\n<p class=\"lead\">{}</p>\n",
+             "<section id=\"found\" class=\"first {}\" aria-label=\"What was found\">\n<h2 class=\"lead\">{}</h2>\n",
              tone(results, report.verdict), escapeHtml(plainSummary(results, report.verdict, foremost.output))) +
          requirementCards(report) + verdictCard(report.verdict) +
          (report.verdict.word == Agreement::outside ? "" : approachesList(results)) +

@@ -117,10 +117,10 @@ const keysOf = svg => {
 /** @param {HTMLElement} place @param {Kept} kept */
 export const addButtons = (place, { columns, figure, title, keys }) => {
   const bar = made("div", { className: "keep" });
-  /** @param {string} words @param {string} label @param {() => Promise<string> | void} onPress */
-  const button = (words, label, onPress) => {
+  /** @param {string} words @param {() => Promise<string> | void} onPress */
+  const button = (words, onPress) => {
     const added = made("button", { type: "button", textContent: words }, bar);
-    added.setAttribute("aria-label", label + " of " + title());
+    added.setAttribute("aria-label", words + " of " + title());  // as it is seen, for who speaks to it
     added.addEventListener("click", async () => {
       const said = await onPress();
       if (!said) return;
@@ -128,8 +128,8 @@ export const addButtons = (place, { columns, figure, title, keys }) => {
       setTimeout(() => { added.textContent = words; }, 1500);
     });
   };
-  if (columns) button("Copy CSV", "Copy the numbers", async () => await copied(csv(columns())) ? "Copied" : "Not allowed");
-  button("Save SVG", "Save the drawing", () => {
+  if (columns) button("Copy CSV", async () => await copied(csv(columns())) ? "Copied" : "Not allowed");
+  button("Save SVG", () => {
     const svg = one("svg", figure());
     save(drawing(svg, title(), keys ? keys() : keysOf(svg)), title());
   });

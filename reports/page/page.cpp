@@ -160,7 +160,7 @@ std::string provenanceSection(const Report& report) {
   for (const ExtensionInfo& e : results.extensions)
     table.row("extended", {fmt::format("from {}, by Gamut {} on {}, {}", countText(e.before, "sample"), e.version,
                                        e.host, e.date)});
-  return table.html() + "<details><summary>The study as it was written</summary><pre>" +
+  return table.html() + "<details><summary>The study as it was written</summary><pre tabindex=\"0\">" +
          escapeHtml(printableLines(shortened(results.studyText, report.detail.textBytes))) + "</pre></details>\n";
 }
 

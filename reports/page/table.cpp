@@ -11,8 +11,9 @@
 namespace gamut {
 
 TableText::TableText(std::string_view caption, const std::vector<std::string>& heads)
-    : html_("<div class=\"table\"><table>\n") {
-  html_ += fmt::format("<caption>{}</caption>\n<thead><tr>", escapeHtml(caption));
+    : html_(fmt::format("<div class=\"table\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\"><table>\n"
+                        "<caption>{0}</caption>\n<thead><tr>",
+                        escapeHtml(caption))) {
   for (const std::string& head : heads) html_ += fmt::format("<th scope=\"col\">{}</th>", escapeHtml(head));
   html_ += "</tr></thead>\n<tbody>\n";
 }

@@ -45,7 +45,7 @@ class Browser : public ::testing::Test {
   /// What becomes of the page of these results once its scripts have run and its plots are drawn.
   /// `doing`: what a reader does then, as the body of an asynchronous function. What it notes is waited for; after
   /// `await laidOut()` plots have followed what it changed.
-  std::string opened(const Results& results, const std::string& doing = "", const Chromium::Size& size = {}) {
+  std::string opened(const Results& results, const std::string& doing = "", const Chromium::Screen& screen = {}) {
     const std::string page = folder_.path("report.html");
     writeReport(results, page);
     // Frames are drawn after callbacks, and observers of sizes are told before the next one begins.
@@ -62,7 +62,7 @@ class Browser : public ::testing::Test {
                  ? ""
                  : "while (!isNoted && root.dataset.error == null) await frame();") +
             "return root.outerHTML;",
-        size);
+        screen);
   }
 
  private:

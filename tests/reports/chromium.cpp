@@ -61,14 +61,16 @@ Chromium::~Chromium() {
   ::waitpid(process_, nullptr, 0);
 }
 
-std::string Chromium::found(const std::string& page, const std::string& script, const Size& size) {
+std::string Chromium::found(const std::string& page, const std::string& script, const Screen& screen) {
   const json target = json::parse(asked("Target.createTarget", json{{"url", "file://" + page}}.dump()));
   const std::string id = target["result"]["targetId"];
   const json attached = json::parse(asked("Target.attachToTarget", json{{"targetId", id}, {"flatten", true}}.dump()));
   const std::string session = attached["result"]["sessionId"];
   asked("Emulation.setDeviceMetricsOverride",
-        json{{"width", size.width}, {"height", size.height}, {"deviceScaleFactor", 1}, {"mobile", false}}.dump(),
+        json{{"width", screen.width}, {"height", screen.height}, {"deviceScaleFactor", 1}, {"mobile", false}}.dump(),
         session);
+  const json scheme{{"name", "prefers-color-scheme"}, {"value", screen.isDark ? "dark" : "light"}};
+  asked("Emulation.setEmulatedMedia", json{{"features", json::array({scheme})}}.dump(), session);
   // The target is empty until the page is there; what runs in it until then is lost with it.
   const std::string whole =
       "location.protocol !== 'file:' ? null : (async () => { if (document.readyState !== 'complete') "

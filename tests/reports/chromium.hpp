@@ -15,9 +15,10 @@ class Chromium {
  public:
   static bool isInstalled();
 
-  /// So many pixels of a page are seen.
-  struct Size {
+  /// So many pixels of a page are seen, by a reader who prefers the dark or does not.
+  struct Screen {
     int width = 800, height = 600;
+    bool isDark = false;
   };
   Chromium();
   ~Chromium();
@@ -26,7 +27,7 @@ class Chromium {
 
   /// The text that an asynchronous function finds in this page; its body is `script`, which may wait. The page is
   /// opened when it begins, and closed when it ends; whether its own scripts are done is for it to await.
-  std::string found(const std::string& page, const std::string& script, const Size& size);
+  std::string found(const std::string& page, const std::string& script, const Screen& screen);
 
  private:
   /// The answer to a command; all as JSON.

@@ -585,7 +585,7 @@ TEST(Report, BeginsWithRequirements) {
                           HasSubstr("up to 98.7 % of what is stated"), HasSubstr("a probability of 0.0298 to 0.0316"),
                           HasSubstr("(short by 0.002"),
                           HasSubstr("It is met in every case if all tolerances shrink to 98.7 %.")));
-  EXPECT_THAT(page, HasSubstr("<p class=\"lead\">The requirement can be violated within the stated tolerances.</p>"));
+  EXPECT_THAT(page, HasSubstr("<h2 class=\"lead\">The requirement can be violated within the stated tolerances.</h2>"));
 }
 
 /// Two outputs with margins: the height's is met by far, the speed's is missed at the third of five output times.
