@@ -157,8 +157,8 @@ class TimeChart {
     return found;
   }
 
-  /// At the last or at the first number of the band, above or below it, where the fewest lines are: the first of these
-  /// places if all are alike; of several the others begin below.
+  /// At the last or at the first number of the band, above or below it, over no other label if that can be, where the
+  /// fewest lines are: the first of these places if all are alike; of several the others begin below.
   void drawLabel(const Layer& layer, std::size_t i) {
     const Line& line = layer.bands[i].lower;
     const auto first = std::ranges::find_if(line, isDrawn);
@@ -168,29 +168,49 @@ class TimeChart {
     const double wide = letter * static_cast<double>(layer.labels[i].size());
     std::size_t least = std::numeric_limits<std::size_t>::max();
     std::string text;
+    Label label;
     for (const bool atEnd : {true, false}) {
       const auto at = atEnd ? last : first;
       const double on = frame_.down(*at),
                    edge = across(static_cast<std::size_t>(at - line.begin())) + (atEnd ? -beside : beside);
       const bool isBelowFirst = i % 2 != 0 || on < marginTop + 16;
       for (const bool isBelow : {isBelowFirst, !isBelowFirst}) {
-        const double base = on + (isBelow ? 13 : -4), left = atEnd ? edge - wide : edge;
+        const double base = on + (isBelow ? 13 : -4), right = frame_.width - marginRight,
+                     left = std::max(marginLeft, std::min(atEnd ? edge - wide : edge, right - wide));
         if (base - size < 0 || base > frame_.height - marginBottom) continue;
-        const std::size_t lines = crossings(layer, left, left + wide, base - size, base + 2);
+        const Label place{left, left + wide, base - size, base + 2};
+        constexpr std::size_t unreadable = 1'000'000;
+        const std::size_t others = static_cast<std::size_t>(
+                              std::ranges::count_if(labels_, [&](const Label&other) { return place.meets(other); })),
+                          lines =
+                              crossings(layer, place.left, place.right, place.top, place.bottom) + unreadable * others;
         if (lines >= least) continue;
         least = lines;
         text.clear();
-        drawText(atEnd ? "end label" : "label", edge, base, layer.labels[i], text);
+        label = place;
+        const bool isAtRight = atEnd || left < edge;  // letters may be wider than they are taken for
+        drawText(isAtRight ? "end label" : "label", isAtRight ? left + wide : left, base, layer.labels[i], text);
       }
     }
+    if (!text.empty()) labels_.push_back(label);
     svg_ += text;
   }
+
+  /// What a label covers.
+  struct Label {
+    double left = 0, right = 0, top = 0, bottom = 0;
+
+    bool meets(const Label& other) const {
+      return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+    }
+  };
 
   const std::vector<double>& time_;
   const std::vector<Layer>& layers_;
   const std::vector<Span>* missed_ = nullptr;
   Frame frame_;
   std::string svg_;
+  std::vector<Label> labels_;  ///< that are written
 };
 
 }  // namespace

@@ -1,7 +1,8 @@
-// One time for the whole page: what shows a moment follows its slider, which begins at the worst instant.
+// One time for the whole page: what shows a moment follows its slider, which begins at the worst instant. The card of a
+// requirement chooses its own.
 "use strict";
 
-import { all, chooseTime, followTime, made } from "./dom.js";
+import { all, chooseTime, followTime, made, one } from "./dom.js";
 
 for (const place of all(".clock")) {
   const until = Number(place.dataset.until), steps = 1000;
@@ -20,4 +21,14 @@ for (const place of all(".clock")) {
   });
   followTime(show);
   chooseTime(Number(place.dataset.instant));
+}
+
+for (const card of all(".clock").length > 0 ? all(".requirements > li[data-instant]") : []) {
+  const instant = Number(card.dataset.instant);
+  const words = "Go to " + Number(instant.toPrecision(4)) + " s";
+  one("span", card).after(made("button", { type: "button", className: "instant", textContent: words }), " ");
+  card.addEventListener("click", ({ target }) => {
+    const isElsewhere = target instanceof Element && target.closest("summary, details, button:not(.instant)");
+    if (!isElsewhere && getSelection()?.isCollapsed !== false) chooseTime(instant);
+  });
 }

@@ -1,4 +1,5 @@
-// The list of outputs: ordered by its columns, searched by name; a link to an output unfolds it.
+// The list of outputs: ordered by its columns, searched by name; a link to an output unfolds it. On a phone the parts of the
+// page are a list to choose from.
 "use strict";
 
 import { all, made, one } from "./dom.js";
@@ -59,6 +60,29 @@ for (const list of all(".listed")) {
   makeHeads(list);
   makeSearch(list);
 }
+
+/** Which part is read: the last that begins above the middle of the window. @param {HTMLElement[]} parts */
+const readPart = parts => parts.findLast(part => part.getBoundingClientRect().top < innerHeight / 2) ?? parts[0];
+
+/** @param {HTMLElement} links */
+const makeChoice = links => {
+  const options = all("a", links), name = made("label", { className: "choice", textContent: "Part" });
+  const choice = made("select", {}, name);
+  for (const link of options) made("option", { value: link.getAttribute("href") ?? "", textContent: link.textContent }, choice);
+  choice.addEventListener("change", () => { location.hash = choice.value; });
+  const parts = options.map(link => document.getElementById((link.getAttribute("href") ?? "").slice(1))).filter(part => part != null);
+  let isAsked = false;
+  window.addEventListener("scroll", () => {
+    if (isAsked || name.clientWidth === 0) return;
+    isAsked = true;
+    requestAnimationFrame(() => {
+      isAsked = false;
+      choice.value = "#" + readPart(parts).id;
+    });
+  }, { passive: true });
+  links.after(name);
+};
+for (const links of all("nav.parts")) if (links.childElementCount > 0) makeChoice(links);
 
 /** What a link leads to is seen. */
 const unfold = () => {

@@ -107,11 +107,16 @@ const crossings = (plot, lines, own, left, right, top, bottom) => {
   return found;
 };
 
+/** What a label covers of the canvas. @typedef {{left: number, right: number, base: number, height: number}} Label */
+/** @param {Label} a @param {Label} b */
+const meet = (a, b) => a.left < b.right && b.left < a.right && Math.abs(a.base - b.base) < Math.max(a.height, b.height);
+
 /**
- * At the end or the beginning of what is seen, above or below the line, where the fewest lines are: as on paper.
- * @param {uPlot} plot @param {Drawn[]} lines @param {Drawn} drawnLine
+ * At the end or the beginning of what is seen, above or below the line, over no other label if that can be, where the
+ * fewest lines are: as on paper.
+ * @param {uPlot} plot @param {Drawn[]} lines @param {Drawn} drawnLine @param {Label[]} others
  */
-const placeOfLabel = (plot, lines, { label, layer, line, isBelow }) => {
+const placeOfLabel = (plot, lines, { label, layer, line, isBelow }, others) => {
   const { ctx, bbox } = plot, px = devicePixelRatio, last = line.findLastIndex(x => x != null);
   if (last < 0) return null;
   const end = Math.min(plot.valToPos(time[last], "x", true), bbox.left + bbox.width) - 4 * px;
@@ -119,17 +124,19 @@ const placeOfLabel = (plot, lines, { label, layer, line, isBelow }) => {
   const y = plot.valToPos(line[last] ?? 0, "y", true), wide = ctx.measureText(label).width;
   if (end < bbox.left || y < bbox.top || y > bbox.top + bbox.height) return null;
   const isBelowFirst = isBelow || y < bbox.top + 16 * px;
-  /** @type {{found: number, left: number, base: number} | null} */
+  /** @type {{found: number, label: Label} | null} */
   let best = null;
-  for (const left of [end - wide, begin]) {
+  for (const edge of [end - wide, begin]) {
+    const left = Math.max(bbox.left, Math.min(edge, bbox.left + bbox.width - wide));
     for (const isUnder of [isBelowFirst, !isBelowFirst]) {
-      const base = y + (isUnder ? 13 : -4) * px;
+      const base = y + (isUnder ? 13 : -4) * px, place = { left, right: left + wide, base, height: 13 * px };
       if (base - 11 * px < bbox.top || base > bbox.top + bbox.height) continue;
-      const found = crossings(plot, lines, layer, left, left + wide, base - 11 * px, base + 2 * px);
-      if (best == null || found < best.found) best = { found, left, base };
+      const unreadable = 1e6 * others.filter(other => meet(place, other)).length;
+      const found = unreadable + crossings(plot, lines, layer, left, left + wide, base - 11 * px, base + 2 * px);
+      if (best == null || found < best.found) best = { found, label: place };
     }
   }
-  return best;
+  return best?.label ?? null;
 };
 
 /** @param {uPlot} plot @param {Drawn[]} lines */
@@ -142,9 +149,12 @@ const drawLabels = (plot, lines) => {
   ctx.lineWidth = 3 * px;
   ctx.lineJoin = "round";
   ctx.strokeStyle = color("paper");
+  /** @type {Label[]} */
+  const written = [];
   lines.forEach((line, i) => {
-    const place = line.label && plot.series[i + 1].show ? placeOfLabel(plot, lines, line) : null;
+    const place = line.label && plot.series[i + 1].show ? placeOfLabel(plot, lines, line, written) : null;
     if (!place) return;
+    written.push(place);
     ctx.strokeText(line.label, place.left, place.base);
     ctx.fillStyle = line.stroke ?? "";
     ctx.fillText(line.label, place.left, place.base);

@@ -63,7 +63,13 @@ std::vector<Mark> marksOf(const Results& results, const Worst& at) {
   return marks;
 }
 
-/// The views nested about one line, and a red one at zero, left of which the requirement is violated.
+/// Whether a margin is above a limit; below it, it is drawn as its output lies: beyond an upper limit to the right.
+bool isAboveLimit(const Results& results, std::size_t margin) {
+  const auto info = std::ranges::find(results.margins, margin, &MarginInfo::output);
+  return info == results.margins.end() || info->isAbove;
+}
+
+/// The views nested about one line, and a red one at the limit, beyond which the requirement is violated.
 std::string marginBar(const Results& results, const RequirementResult& requirement, const Worst& at) {
   constexpr double width = 320, height = 44, middle = 18, least = 2;
   const std::vector<Mark> marks = marksOf(results, at);
@@ -80,17 +86,23 @@ std::string marginBar(const Results& results, const RequirementResult& requireme
     words.push_back(fmt::format("{} {}", mark.words, inUnit(fmt::format("{} to {}", lower, upper), unit)));
   }
   const Range padded = range.padded(0.06);
-  const auto across = [&](double value) { return width * (value - padded.low) / (padded.high - padded.low); };
+  const bool isAbove = isAboveLimit(results, at.margin);
+  const auto across = [&](double value) {
+    const double share = (value - padded.low) / (padded.high - padded.low);
+    return width * (isAbove ? share : 1 - share);
+  };
   const std::string when =
       results.horizon > 0 ? fmt::format(" at {} s", numberText(results.time[at.row], 6)) : std::string();
   const std::string label = fmt::format("Margin of {}{}: {}", requirement.name, when, fmt::join(words, "; "));
   std::string svg = fmt::format(
       "<svg class=\"drawing margin\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n"
-      "<rect class=\"missed\" x=\"0\" y=\"4\" width=\"{:.1f}\" height=\"{}\"/>\n",
-      width, height, escapeHtml(label), across(0), 2 * (middle - 4));
+      "<rect class=\"missed\" x=\"{:.1f}\" y=\"4\" width=\"{:.1f}\" height=\"{}\"/>\n",
+      width, height, escapeHtml(label), isAbove ? 0.0 : across(0), isAbove ? across(0) : width - across(0),
+      2 * (middle - 4));
   double half = 10;
   for (const Mark& mark : marks) {
-    const double left = across(mark.lower), wide = std::max(across(mark.upper) - left, least);
+    const auto [left, right] = std::minmax({across(mark.lower), across(mark.upper)});
+    const double wide = std::max(right - left, least);
     svg += fmt::format("<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"1.5\"/>\n",
                        mark.name, left, middle - half, wide, 2 * half);
     half -= 3.5;
@@ -183,11 +195,19 @@ std::string requirementCards(const Report& report) {
       html += fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name));
       continue;
     }
-    html += fmt::format("<li class=\"{}\" id=\"requirement-{}\"><b>{}</b> <span>{}</span> {}{}\n", words[r].word, r + 1,
-                        stateOf(requirement), escapeHtml(words[r].name), escapeHtml(sentences[r]),
-                        shrinkSentence(requirement));
-    if (const std::optional<Worst> at = worstOf(results, requirement); at && ++shown <= drawn) {
-      html += "<div class=\"seen\">" + marginBar(results, requirement, *at) + closeUp(report, r, *at) + "</div>\n";
+    const std::optional<Worst> at = worstOf(results, requirement);
+    const std::string said =
+        fmt::format("<b>{}</b> <span>{}</span> {}{}\n", stateOf(requirement), escapeHtml(words[r].name),
+                    escapeHtml(sentences[r]), shrinkSentence(requirement));
+    html += fmt::format("<li class=\"{}\" id=\"requirement-{}\"{}>", words[r].word, r + 1,
+                        at && results.horizon > 0
+                            ? fmt::format(" data-instant=\"{}\"", numberText(results.time[at->row], 12))
+                            : std::string());
+    if (!at || ++shown > drawn) {
+      html += said;
+    } else {
+      html += fmt::format("<div class=\"seen\"><div class=\"said\">{}{}</div>{}</div>\n", said,
+                          marginBar(results, requirement, *at), closeUp(report, r, *at));
       if (requirement.word != Decision::met) html += whatToDo(results, at->margin, at->row, shown == 1);
     }
     html += threeAnswers(words[r]) + "</li>\n";

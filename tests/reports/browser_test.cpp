@@ -228,6 +228,20 @@ TEST_F(Browser, SetsWhatIsKnownAtATimeBesideThePlotOnTheSameAxis) {
   EXPECT_NEAR(spread.top, (spread.high - median(26, 1) - foot) / high * spread.height, 2);
 }
 
+/// On a phone the parts are a list: what is chosen is led to, and what is read is told. On a desktop there are links.
+TEST_F(Browser, LeadsToPartsByAListOnAPhone) {
+  const std::string doing =
+      "const choice = document.querySelector('.choice select'), seen = name =>"
+      "  document.querySelector(name).getClientRects().length;"
+      "const found = [seen('.choice'), seen('.parts')]; choice.value = '#origin';"
+      "choice.dispatchEvent(new Event('change')); await laidOut(); found.push(location.hash,"
+      "  document.querySelector('#origin details').open, Math.round(document.querySelector('#origin')."
+      "getBoundingClientRect().top) < innerHeight); scrollTo(0, 0); await laidOut(); await laidOut();"
+      "found.push(choice.value); note(found.join(' '));";
+  EXPECT_EQ(noted(opened(example::pendulum(61, 2), doing, {390, 844})), "1 0 #origin true true #found");
+  EXPECT_THAT(noted(opened(example::pendulum(61, 2), doing, {1400, 900})), ::testing::StartsWith("0 1 "));
+}
+
 /// By their peaks, falling at the second click; by name; and what is searched for alone.
 TEST_F(Browser, OrdersAndSearchesTheOutputs) {
   const std::string press =
@@ -382,6 +396,21 @@ TEST_F(Browser, HasOneTime) {
   const std::string byMoments = opened(results, slid(".memberships .moments", 2));
   EXPECT_EQ(count(byMoments, "<output>t = 0.5 s</output>"), 2u);
   EXPECT_THAT(byMoments, HasSubstr("<output>0.5 s</output>"));
+}
+
+/// Its button, by keyboard too, or a click anywhere on it; what it folds away is for its own ends.
+TEST_F(Browser, ChoosesTheInstantOfARequirementsCard) {
+  const std::string page =
+      opened(limited(), slid(".clock", 0) +
+                            "const card = document.querySelector('.requirements > li'), found = [];"
+                            "const said = () => document.querySelector('.clock output').textContent;"
+                            "const shown = () => document.querySelector('.listed .beside g.moment:not([hidden])');"
+                            "card.querySelector('details summary').click(); found.push(said());"
+                            "card.click(); found.push(said());" +
+                            slid(".clock", 0) +
+                            "const button = card.querySelector('button'); button.click();"
+                            "found.push(said(), button.textContent); note(found.join('|next|'));");
+  EXPECT_THAT(parted(noted(page)), ::testing::ElementsAre("t = 0 s", "t = 1.3 s", "t = 1.3 s", "Go to 1.3 s"));
 }
 
 TEST_F(Browser, ShowsNoNameOverAnother) {

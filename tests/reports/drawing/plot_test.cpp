@@ -42,6 +42,47 @@ void expectHolds(const Plot& thin, const Band& outer, const Plot& full, const Ba
   }
 }
 
+/// Limits of a short window near the end, each near to the others: labels stay on the paper, and none lies over
+/// another.
+TEST(PaperPlot, WritesEveryLabelWhereItCanBeRead) {
+  Plot plot{"deflection", "mm", {}, {}, {}};
+  Layer limits{.name = "limit", .words = "limit", .kind = Layer::Kind::line};
+  for (std::size_t i = 0; i < 100; ++i) plot.time.push_back(0.01 * static_cast<double>(i));
+  for (const double value : {5.0, 4.9, -5.0}) {
+    Line line(100, NAN);
+    for (std::size_t i = 97; i < 100; ++i) line[i] = value;
+    limits.bands.push_back({line, line});
+    limits.labels.push_back(value == 5 ? "limit 5 mm" : "limit 4.9 mm");
+  }
+  Layer motion{.name = "median", .words = "median", .kind = Layer::Kind::line};
+  Line line;
+  for (std::size_t i = 0; i < 100; ++i) line.push_back(-20 * std::sin(0.1 * static_cast<double>(i)));
+  motion.bands.push_back({line, line});
+  plot.layers = {motion, limits};
+  const std::string svg = drawPlot(plot, "Plot");
+  struct Place {
+    double left = 0, right = 0, base = 0;
+  };
+  std::vector<Place> places;
+  for (auto at = svg.find("label\" x=\""); at != std::string::npos; at = svg.find("label\" x=\"", at + 1)) {
+    const double x = std::stod(svg.substr(at + 10)), base = std::stod(svg.substr(svg.find("y=\"", at) + 3));
+    const bool isEnd = svg.substr(at - 4, 4) == "end ";
+    const auto begin = svg.find('>', at) + 1;
+    const double wide = 6.2 * static_cast<double>(svg.find('<', begin) - begin);
+    places.push_back({isEnd ? x - wide : x, isEnd ? x : x + wide, base});
+  }
+  ASSERT_EQ(places.size(), 3u);
+  for (const Place& one : places) {
+    EXPECT_GE(one.left, marginLeft);
+    EXPECT_LE(one.right, paperWidth - marginRight);
+    for (const Place& other : places) {
+      if (&one != &other && one.left < other.right && other.left < one.right) {
+        EXPECT_GE(std::abs(one.base - other.base), 13);
+      }
+    }
+  }
+}
+
 TEST(ThinnedPlot, KeepsProvedBandsOutside) {
   for (const std::size_t points : {2u, 3u, 17u, 100u, 299u}) {
     const Plot full = plotOf(example::pendulum(301, 1, 3), 0);

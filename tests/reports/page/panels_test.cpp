@@ -55,6 +55,32 @@ TEST(Panels, HoldARowOfEachOutputThatUnfoldsWithoutAScript) {
   EXPECT_THAT(rowOf(page, 1), HasSubstr("data-head=\"peak\">0 to 0.05 s</span>"));  // where it begins
 }
 
+/// Beyond an upper limit lies what is to the right of it, beyond a lower one what is to the left, as outputs do.
+TEST(Cards, DrawMarginsAsTheirOutputsLie) {
+  Results results = example::pendulum(61, 2);
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = "ceiling";
+  requirement.statement = "always a < 1 rad";
+  requirement.word = Decision::met;
+  requirement.margin = requirement.margins = 1;
+  requirement.until = results.horizon;
+  requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  results.margins.push_back({1, "a", false, "1 rad", "rad", true, 0, 1, true});
+  const auto number = [&](const std::string& shape, const std::string& name) {
+    const std::string page = renderReport(results);
+    const auto at = page.find("class=\"" + shape + "\"", page.find("<svg class=\"drawing margin\""));
+    return at == std::string::npos ? NAN : std::stod(page.substr(page.find(name, at) + name.size()));
+  };
+  const double limit = number("zero", "d=\"M");
+  EXPECT_NEAR(number("missed", "x=\""), limit, 0.1);
+  EXPECT_NEAR(number("missed", "width=\""), 320 - limit, 0.1);
+  const double left = number("mark-guaranteed", "x=\""), wide = number("mark-guaranteed", "width=\"");
+  results.margins[0].isAbove = true;
+  EXPECT_NEAR(number("zero", "d=\"M"), 320 - limit, 0.1);
+  EXPECT_EQ(number("missed", "x=\""), 0);
+  EXPECT_NEAR(number("mark-guaranteed", "x=\""), 320 - left - wide, 0.11);
+}
+
 TEST(Panels, TellHowTheRequirementOfAnOutputStands) {
   Results results = limited();
   EXPECT_THAT(rowOf(renderReport(results), 0),
