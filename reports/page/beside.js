@@ -23,6 +23,12 @@ export class Beside {
     this.frame = shape("g", {}, this.svg);
     this.window = shape("svg", { class: "window" }, this.svg);
     this.window.append(...this.moments);
+    this.width = 200;
+  }
+
+  /** How much room it has: to ask the page for it at every time would take longer than all else. */
+  measure() {
+    this.width = this.svg.clientWidth || this.width;
   }
 
   /**
@@ -31,7 +37,7 @@ export class Beside {
    */
   draw(plot, time, isSpread, limits) {
     const { min = 0, max = 0 } = plot.scales.y, px = devicePixelRatio;
-    const top = plot.bbox.top / px, height = plot.bbox.height / px, width = this.svg.clientWidth || 200;
+    const top = plot.bbox.top / px, height = plot.bbox.height / px, { width } = this;
     this.svg.setAttribute("viewBox", [0, 0, width, plot.height].join(" "));
     this.svg.setAttribute("height", String(plot.height));
     this.svg.classList.toggle("narrow", width < 180);

@@ -11,7 +11,10 @@ for (const place of all(".controls.moments")) {
   const figures = all("figure." + place.dataset.of), last = String(moments.length - 1);
   const slider = made("input", { type: "range", min: "0", max: last, value: last }, place), said = made("output", {}, place);
   slider.setAttribute("aria-label", place.dataset.label ?? "");
+  let shown = "";
   const show = () => {
+    if (slider.value === shown) return;
+    shown = slider.value;
     said.textContent = moments[Number(slider.value)];
     slider.setAttribute("aria-valuetext", said.textContent);
     for (const figure of figures) figure.hidden = figure.dataset.at !== slider.value;

@@ -183,7 +183,7 @@ const rangeOf = (plot, lines, isSpread) => {
 };
 
 /**
- * The time of the page, and along the lower end where a requirement may be violated, wide enough to be seen.
+ * Along the lower end, where a requirement may be violated, wide enough to be seen.
  * @param {uPlot} plot @param {number[][]} missed
  */
 const drawMarks = (plot, missed) => {
@@ -195,9 +195,6 @@ const drawMarks = (plot, missed) => {
     const wide = Math.max(b - a, 3 * px);
     if (b >= a) ctx.fillRect(Math.min((a + b - wide) / 2, right - wide), bbox.top + bbox.height - 6 * px, wide, 6 * px);
   }
-  const at = plot.valToPos(pageTime, "x", true);
-  ctx.fillStyle = color("soft");
-  if (at >= bbox.left && at <= right) ctx.fillRect(at - px / 2, bbox.top, px, bbox.height);
   ctx.restore();
 };
 
@@ -253,6 +250,10 @@ class OutputPlot {
     this.plot = null;
     /** @type {Drawn[]} */
     this.lines = [];
+    /** Where the time of the page is: what is drawn below it stays as it is. */
+    this.mark = made("div", { className: "mark" });
+    /** @type {(plot: uPlot) => void} */
+    this.showBeside = () => {};
     for (const details of all(".static details", section)) details.replaceWith(one("figure", details));
     if (section.dataset.layers == null) this.addViews();
     const pair = made("div", { className: "pair" }, this.place), [template] = all("template.beside", section);
@@ -319,14 +320,26 @@ class OutputPlot {
     this.lines = lines;
     const isSpread = view === "spread", isRatio = view === "ratio", missed = isRatio ? [] : output.missed;
     const limits = isSpread ? [] : lines.filter(({ isLimit }) => isLimit).map(({ line }) => line);
+    this.showBeside = plot => this.beside?.draw(plot, isRatio ? null : pageTime, isSpread, limits);
     /** @param {uPlot} plot */
     const onDraw = plot => {
       drawMarks(plot, missed);
-      this.beside?.draw(plot, isRatio ? null : pageTime, isSpread, limits);
+      this.showTime(plot);
     };
+    this.beside?.measure();
     this.plot = makePlot(this.main, { name, lines, bands, isSpread, onCursor: read, onDraw });
+    this.plot.over.append(this.mark);
     read();
     drawn.add(this);
+  }
+
+  /** @param {uPlot | null} plot */
+  showTime(plot = this.plot) {
+    if (!plot) return;
+    const at = plot.valToPos(pageTime, "x");
+    this.mark.hidden = !(at >= 0 && at <= plot.bbox.width / devicePixelRatio);
+    this.mark.style.transform = "translateX(" + at + "px)";
+    this.showBeside(plot);
   }
 
   /** @param {string} layer @param {boolean} isShown */
@@ -339,13 +352,14 @@ class OutputPlot {
 
   resize() {
     const width = this.main.clientWidth;
+    this.beside?.measure();
     if (width > 0 && this.plot?.width !== width) this.plot?.setSize({ width, height: heightIn(this.main) });  // 0: printed
   }
 }
 
 followTime(at => {
   pageTime = at;
-  for (const { plot, main } of drawn) if (main.clientWidth > 0) plot?.redraw(false, false);
+  for (const plot of drawn) if (plot.section.matches(".foremost, :has(> details[open])")) plot.showTime();
   const [first] = drawn;  // whose cursor all others have
   first?.plot?.setCursor({ left: first.plot.valToPos(at, "x"), top: 1 });
 });

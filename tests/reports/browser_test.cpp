@@ -413,6 +413,28 @@ TEST_F(Browser, ChoosesTheInstantOfARequirementsCard) {
   EXPECT_THAT(parted(noted(page)), ::testing::ElementsAre("t = 0 s", "t = 1.3 s", "t = 1.3 s", "Go to 1.3 s"));
 }
 
+/// The slider moves a mark over each plot, and what is beside it, but draws no plot again: so it is quick.
+TEST_F(Browser, MovesTheTimeWithoutDrawingPlotsAgain) {
+  const std::string page = opened(
+      example::pendulum(301, 3),
+      std::string(unfolded) +
+          "let drawn = 0; const clear = CanvasRenderingContext2D.prototype.clearRect;"
+          "CanvasRenderingContext2D.prototype.clearRect = function (...where) { ++drawn; clear.call(this, ...where); };"
+          "const seen = () => [...document.querySelectorAll('.live .mark')].map(mark => Math.round("
+          "  mark.getBoundingClientRect().left - mark.parentElement.getBoundingClientRect().left)).join(' ');" +
+          slid(".clock", 500) +
+          "await laidOut(); const middle = seen(), wide = document.querySelector('.listed .u-over').clientWidth;" +
+          slid(".clock", 250) + "await laidOut(); note([middle, seen(), wide, drawn].join('|next|'));");
+  const std::vector<std::string> found = parted(noted(page));
+  ASSERT_EQ(found.size(), 4u);
+  const double wide = std::stod(found[2]);
+  const auto last = [](const std::string& places) { return std::stod(places.substr(places.rfind(' '))); };
+  EXPECT_NEAR(last(found[0]), wide / 2, 1.5);
+  EXPECT_NEAR(last(found[1]), wide / 4, 1.5);
+  EXPECT_EQ(count(found[0], " "), 3u);
+  EXPECT_EQ(found[3], "0");
+}
+
 TEST_F(Browser, ShowsNoNameOverAnother) {
   Results results = example::machine();
   PictureResult& m = results.picture;
