@@ -26,6 +26,7 @@ struct Section {
 constexpr Section sections[] = {
     {"Outputs", "outputs", outputsSection},
     {"The machine", "moving", machineSection},
+    {"Explorer", "explorer", explorerSection, "Samples one by one: choose among them by their quantities and outputs"},
     {"What was asked", "asked", askedSection},
     {"Workspace", "workspaces", workspaceSection},
     {"Modes", "modes", modesSection},
@@ -57,7 +58,7 @@ SectionTexts sectionsOf(const Report& report) {
 
 /// What chooses times and copies figures; on pages with plots over time the numbers and what draws them; what moves the
 /// picture of the machine.
-std::string scriptsOf(const Report& report) {
+std::string scriptsOf(const Report& report, bool isExplored) {
   std::string scripts = scriptElement(page::domScript) + scriptElement(page::outputsScript) +
                         scriptElement(page::keepScript) + scriptElement(page::momentsScript);
   if (const std::string& data = report.outputs.data; !data.empty())
@@ -66,6 +67,7 @@ std::string scriptsOf(const Report& report) {
                scriptElement(page::plottingScript) + scriptElement(page::axesScript) +
                scriptElement(page::besideScript) + scriptElement(page::pageScript);
   if (report.results.picture.present) scripts += scriptElement(page::sceneScript) + scriptElement(page::machineScript);
+  if (isExplored) scripts += scriptElement(page::choiceScript) + scriptElement(page::exploreScript);
   return scripts + scriptElement(page::listScript) + scriptElement(page::clockScript);
 }
 
@@ -90,7 +92,7 @@ std::string rendered(const Results& results, const Verdict& verdict, const Detai
                      {"links", texts.links},
                      {"clock", clockOf(results)},
                      {"sections", texts.html},
-                     {"scripts", scriptsOf(report)}});
+                     {"scripts", scriptsOf(report, texts.html.find("class=\"explored\"") != std::string::npos)}});
 }
 
 }  // namespace

@@ -48,6 +48,22 @@ export const chooseTime = (time, chooser) => {
   for (const follow of followers) if (follow !== chooser) follow(time);
 };
 
+/** A sample's motion of an output. @typedef {{time: number[], values: (number | null)[], isMissed: boolean}} Curve */
+/** The curves of the samples that are chosen, of an output by its number. @typedef {(output: string) => Curve[]} CurvesOf */
+
+/** @type {Set<(curvesOf: CurvesOf | null) => void>} */
+const curveFollowers = new Set();
+
+/** Calls it with every choice of samples on the page; none: no sample is chosen. @param {(curvesOf: CurvesOf | null) => void} follow */
+export const followCurves = follow => {
+  curveFollowers.add(follow);
+};
+
+/** @param {CurvesOf | null} curvesOf */
+export const chooseCurves = curvesOf => {
+  for (const follow of curveFollowers) follow(curvesOf);
+};
+
 /** Of times that rise, the place of the nearest. @param {number[]} times @param {number} time */
 export const nearestTo = (times, time) => {
   const behind = times.findIndex(at => at >= time);

@@ -91,6 +91,9 @@ std::string askedSection(const Report& report);
 /// The machine, drawn, with the numbers that make it move; empty where there is none.
 std::string machineSection(const Report& report);
 
+/// The samples that were kept, one by one, to be chosen among; empty where there are none.
+std::string explorerSection(const Report& report);
+
 /// The map of what outputs can reach; empty where nobody asked for it.
 std::string workspaceSection(const Report& report);
 

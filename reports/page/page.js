@@ -5,7 +5,7 @@
 
 import { axisName, padded, ticks } from "./axes.js";
 import { Beside } from "./beside.js";
-import { all, chooseTime, followTime, made, makeSwitches, nearestTo, one, press, pressable } from "./dom.js";
+import { all, chooseTime, followCurves, followTime, made, makeSwitches, nearestTo, one, press, pressable } from "./dom.js";
 import { addButtons, headingOf, hidden } from "./keep.js";
 import { columnsOf, readOutput, readoutOf, shownOf } from "./outputs.js";
 
@@ -20,6 +20,8 @@ const time = JSON.parse(one("#times").textContent ?? "").time;
 const drawn = new Set();
 /** The times that all plots show, where somebody chose them. @type {{min: number, max: number} | null} */
 let shown = null;
+/** The samples that somebody has chosen. @type {import("./dom.js").CurvesOf | null} */
+let curvesOf = null;
 /** The time of the page, s. */
 let pageTime = Number(all(".clock")[0]?.dataset.instant ?? 0);
 
@@ -198,6 +200,28 @@ const drawMarks = (plot, missed) => {
   ctx.restore();
 };
 
+/** Samples that are chosen, those that violate a requirement dashed. @param {uPlot} plot @param {import("./dom.js").Curve[]} curves */
+const drawCurves = (plot, curves) => {
+  const { ctx, bbox } = plot, px = devicePixelRatio;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.lineWidth = px;
+  for (const { time: times, values, isMissed } of curves) {
+    ctx.strokeStyle = color(isMissed ? "outside" : "sure");
+    ctx.setLineDash(isMissed ? [5 * px, 3 * px] : []);
+    ctx.beginPath();
+    values.forEach((value, i) => {
+      const x = plot.valToPos(times[i], "x", true), y = plot.valToPos(value ?? NaN, "y", true);
+      if (value == null || i === 0 || values[i - 1] == null) ctx.moveTo(x, value == null ? 0 : y);
+      else ctx.lineTo(x, y);
+    });
+    ctx.stroke();
+  }
+  ctx.restore();
+};
+
 /** A click, unless it ends a zoom, chooses the time of the page. @param {uPlot} plot */
 const chooseByClick = plot => {
   let begun = NaN;
@@ -309,7 +333,7 @@ class OutputPlot {
 
   draw() {
     this.plot?.destroy();
-    const output = this.output(), { view } = this.section.dataset, { unit, ratios } = output;
+    const { section } = this, output = this.output(), { view } = this.section.dataset, { unit, ratios } = output;
     const { lines, bands } = linesOf(view === "ratio" ? ratios : shownOf(output, this.section.dataset), view === "spread");
     const name = view === "ratio" ? ratios[0].words : view === "spread" ? "deviation" + (unit ? " (" + unit + ")" : "") : unit;
     /** @param {number | null} [i] */
@@ -323,6 +347,7 @@ class OutputPlot {
     this.showBeside = plot => this.beside?.draw(plot, isRatio ? null : pageTime, isSpread, limits);
     /** @param {uPlot} plot */
     const onDraw = plot => {
+      if (view === "absolute" || view == null) drawCurves(plot, curvesOf?.(section.dataset.output ?? "") ?? []);
       drawMarks(plot, missed);
       this.showTime(plot);
     };
@@ -362,6 +387,11 @@ followTime(at => {
   for (const plot of drawn) if (plot.section.matches(".foremost, :has(> details[open])")) plot.showTime();
   const [first] = drawn;  // whose cursor all others have
   first?.plot?.setCursor({ left: first.plot.valToPos(at, "x"), top: 1 });
+});
+
+followCurves(chosen => {
+  curvesOf = chosen;
+  for (const { plot, main } of drawn) if (main.clientWidth > 0) plot?.redraw(false, false);
 });
 
 makeSwitches(".outputs > .keys li", (layer, isShown) => {

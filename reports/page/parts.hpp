@@ -19,6 +19,8 @@ extern const std::string_view listScript;
 extern const std::string_view sceneScript;
 extern const std::string_view machineScript;
 extern const std::string_view clockScript;
+extern const std::string_view choiceScript;
+extern const std::string_view exploreScript;
 extern const std::string_view plottingStyle;    ///< uPlot's style sheet
 extern const std::string_view plottingScript;   ///< uPlot, as one script that defines `uPlot`
 extern const std::string_view plottingLicence;  ///< its licence, which has to travel with it

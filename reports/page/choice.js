@@ -1,0 +1,49 @@
+// Which samples go through the ranges that are chosen of axes, and what keys make of a range.
+"use strict";
+
+/** @typedef {{name: string, unit: string, isQuantity: boolean, limits: number[], values: (number | null)[]}} Axis */
+/** @typedef {[number, number]} Range */
+
+/** A text in lines of so many letters at most, where words let it. @param {string} text @param {number} letters */
+export const wrapped = (text, letters) => {
+  /** @type {string[]} */
+  const lines = [];
+  for (const word of text.split(" ")) {
+    const last = lines.at(-1);
+    if (last != null && (last + " " + word).length <= letters) lines[lines.length - 1] = last + " " + word;
+    else lines.push(word);
+  }
+  return lines;
+};
+
+/** From the least to the greatest of an axis, its limits among them. @param {Axis} axis @returns {Range} */
+export const extentOf = ({ values, limits }) => {
+  const known = [...values.filter(x => x != null), ...limits];
+  const low = Math.min(...known), high = Math.max(...known), room = high > low ? 0 : Math.abs(low) || 1;
+  return known.length === 0 ? [0, 1] : [low - room, high + room];
+};
+
+/**
+ * The numbers of the samples that go through all ranges.
+ * @param {Axis[]} axes @param {Map<number, Range>} ranges @param {number} count
+ */
+export const chosenOf = (axes, ranges, count) => Array.from({ length: count }, (_, i) => i).filter(i =>
+  [...ranges].every(([axis, [low, high]]) => {
+    const value = axes[axis].values[i];
+    return value != null && value >= low && value <= high;
+  }));
+
+/**
+ * A range after a key: arrows move it by a twentieth of the axis, with shift its upper end; none of others.
+ * @param {string} key @param {boolean} isWider @param {Range | undefined} range @param {Range} extent @returns {Range | null}
+ */
+export const movedRange = (key, isWider, range, [low, high]) => {
+  const step = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 }[key];
+  if (step == null) return null;
+  const by = step * (high - low) / 20, [from, until] = range ?? [low + (high - low) / 3, high - (high - low) / 3];
+  if (!range) return [from, until];
+  if (isWider) return [from, Math.min(high, Math.max(from, until + by))];
+  const span = until - from;  // to the very ends, whatever the roundings
+  if (until + by >= high) return [high - span, high];
+  return from + by <= low ? [low, low + span] : [from + by, until + by];
+};

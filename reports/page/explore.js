@@ -1,0 +1,293 @@
+// The samples that were kept, to be chosen among: an axis each quantity and output, a line each sample across them. What is
+// dragged along an axis, or moved by keys, chooses the samples that go through it; the curves of these are seen in the
+// outputs' plots. Below, two quantities as a map. Samples that violate the requirement are dashed and red, and crosses.
+"use strict";
+
+import { chosenOf, extentOf, movedRange, wrapped } from "./choice.js";
+import { all, chooseCurves, made, one } from "./dom.js";
+
+/** @typedef {import("./choice.js").Axis} Axis */
+/** @typedef {import("./choice.js").Range} Range */
+/** A state each sample: "+" met, "-" violated, "?" it did not arrive.
+ * @typedef {{name: string, states: string, met: Range[] | null, violated: (number | null)[]}} Requirement */
+/** @typedef {{low: number | null, step: number, lines: (number | null)[][]}} Curves */
+/** @typedef {{samples: string[], axes: Axis[], requirements: Requirement[], curves: {time: number[]} & Record<string, Curves>}} Explored */
+
+/** @param {number} x */
+const shortNumber = x => Number(x.toPrecision(4)).toString();
+
+/** @param {string} name @param {Record<string, string | number>} attributes @param {Element} parent */
+const svgShape = (name, attributes, parent) => {
+  const element = parent.appendChild(document.createElementNS("http://www.w3.org/2000/svg", name));
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, String(value));
+  return element;
+};
+
+const aboveAxes = 22, axesHigh = 260, wordsHigh = 80;
+
+class Explorer {
+  /** @param {HTMLElement} place @param {Explored} explored */
+  constructor(place, explored) {
+    this.explored = explored;
+    this.place = place;
+    /** @type {Map<number, Range>} */
+    this.ranges = new Map();
+    this.extents = explored.axes.map(extentOf);
+    this.requirement = explored.requirements.at(0);
+    const bar = made("div", { className: "controls" }, place);
+    this.addChoices(bar);
+    this.said = made("output", {}, bar);
+    const clear = made("button", { type: "button", textContent: "All samples" }, bar);
+    clear.addEventListener("click", () => {
+      this.ranges.clear();
+      this.show();
+    });
+    made("p", { className: "hint", textContent: "Drag along an axis to choose samples, or use the arrow keys on it (with Shift: " +
+      "the upper end; Escape: all). Their curves are seen in the plots of outputs that are unfolded." }, place);
+    this.key = made("ul", { className: "keys" }, place);
+    this.wide = made("div", { className: "parallel" }, place);
+    this.map = explored.axes.filter(({ isQuantity }) => isQuantity).length > 1 ? made("div", { className: "map" }, place) : null;
+    this.across = 0;
+    this.upward = 1;
+    this.drawAll();
+    new ResizeObserver(() => {
+      if (this.wide.clientWidth > 0 && this.wide.clientWidth !== this.width) this.drawAll();
+    }).observe(place);
+  }
+
+  /** @param {HTMLElement} bar */
+  addChoices(bar) {
+    const { requirements } = this.explored;
+    if (requirements.length < 2) return;
+    const label = made("label", { className: "choose", textContent: "Coloured by " }, bar), choice = made("select", {}, label);
+    requirements.forEach(({ name }, i) => made("option", { value: String(i), textContent: name }, choice));
+    choice.addEventListener("change", () => {
+      this.requirement = requirements[Number(choice.value)];
+      this.drawAll();
+    });
+  }
+
+  /** @param {number} i */
+  kindOf(i) {
+    const state = this.requirement?.states[i];
+    return state === "-" ? "missed" : state === "?" ? "open" : "met";
+  }
+
+  drawAll() {
+    this.drawKey();
+    this.drawParallel();
+    this.drawMap();
+    this.show();
+  }
+
+  drawKey() {
+    this.key.replaceChildren();
+    if (!this.requirement) return;
+    const { name, states } = this.requirement;
+    for (const [kind, sign, words] of [["missed", "-", "violate"], ["met", "+", "meet"], ["open", "?", "do not arrive for"]]) {
+      const count = [...states].filter(state => state === sign).length;
+      if (count === 0) continue;
+      const item = made("li", {}, this.key);
+      made("span", { className: "swatch explored-" + kind }, item);
+      item.append(count + " " + words + " “" + name + "”");
+    }
+  }
+
+  // ---- Parallel axes --------------------------------------------------------------------------------------------------
+
+  drawParallel() {
+    const { axes, samples } = this.explored, letters = 13;
+    this.width = this.wide.clientWidth;
+    const apart = Math.max(92, (this.width || 800) / axes.length), width = apart * axes.length;
+    this.wide.replaceChildren();
+    const svg = svgShape("svg", { class: "drawing explored", viewBox: [0, 0, width, aboveAxes + axesHigh + wordsHigh].join(" "), width,
+      height: aboveAxes + axesHigh + wordsHigh, role: "group", "aria-label": "Axes of quantities and outputs, a line each sample" }, this.wide);
+    this.xs = axes.map((_, k) => apart * (k + 0.5));
+    const order = samples.map((_, i) => i).sort((a, b) => Number(this.kindOf(a) === "missed") - Number(this.kindOf(b) === "missed"));
+    this.lines = new Map(order.map(i => [i, svgShape("path", { class: "sample " + this.kindOf(i), d: this.pathOf(i) }, svg)]));
+    this.handles = axes.map((axis, k) => {
+      const group = svgShape("g", { class: "axis", tabindex: 0, role: "slider", "aria-orientation": "vertical" }, svg), x = this.xs?.[k] ?? 0;
+      svgShape("rect", { class: "ground", x: x - 18, y: aboveAxes, width: 36, height: axesHigh }, group);
+      svgShape("path", { class: "line", d: "M" + x + " " + aboveAxes + "v" + axesHigh }, group);
+      for (const limit of axis.limits) svgShape("path", { class: "limit", d: "M" + (x - 9) + " " + this.down(k, limit) + "h18" }, group);
+      svgShape("text", { class: "middle", x, y: aboveAxes - 8 }, group).textContent = shortNumber(this.extents[k][1]);
+      svgShape("text", { class: "middle", x, y: aboveAxes + axesHigh + 14 }, group).textContent = shortNumber(this.extents[k][0]);
+      [...wrapped(axis.name, letters).slice(0, 3), axis.unit].filter(Boolean).forEach((line, i) => {
+        const kind = line === axis.unit ? "middle" : "middle bar";
+        svgShape("text", { class: kind, x, y: aboveAxes + axesHigh + 29 + 12 * i }, group).textContent = line;
+      });
+      this.followHands(group, k);
+      return { group, range: svgShape("rect", { class: "range", x: x - 7, width: 14, y: 0, height: 0 }, group) };
+    });
+  }
+
+  /** @param {number} axis @param {number} value */
+  down(axis, value) {
+    const [low, up] = this.extents[axis];
+    return aboveAxes + axesHigh * (up - value) / (up - low);
+  }
+
+  /** @param {number} i */
+  pathOf(i) {
+    let isBegun = false;
+    return this.explored.axes.map(({ values }, k) => {
+      const value = values[i];
+      if (value == null) {
+        isBegun = false;
+        return "";
+      }
+      const letter = isBegun ? "L" : "M";
+      isBegun = true;
+      return letter + (this.xs?.[k] ?? 0).toFixed(1) + " " + this.down(k, value).toFixed(1);
+    }).join("");
+  }
+
+  /** @param {Element} element @param {number} axis */
+  followHands(element, axis) {
+    const group = /** @type {SVGGElement} */ (element), [low, up] = this.extents[axis];
+    /** @param {PointerEvent} event */
+    const valueAt = event => {
+      const box = /** @type {SVGSVGElement} */ (group.ownerSVGElement).getBoundingClientRect();
+      const share = (event.clientY - box.top - aboveAxes) / axesHigh;
+      return up - Math.min(1, Math.max(0, share)) * (up - low);
+    };
+    let begun = NaN;
+    group.addEventListener("pointerdown", event => {
+      begun = valueAt(event);
+      group.setPointerCapture(event.pointerId);
+    });
+    group.addEventListener("pointermove", event => {
+      if (Number.isNaN(begun)) return;
+      const now = valueAt(event);
+      if (Math.abs(now - begun) > (up - low) / 60) this.setRange(axis, [Math.min(begun, now), Math.max(begun, now)]);
+    });
+    group.addEventListener("pointerup", event => {
+      if (Math.abs(valueAt(event) - begun) <= (up - low) / 60) this.setRange(axis, null);
+      begun = NaN;
+    });
+    group.addEventListener("keydown", event => {
+      const moved = movedRange(event.key, event.shiftKey, this.ranges.get(axis), this.extents[axis]);
+      if (!moved && event.key !== "Escape") return;
+      event.preventDefault();
+      this.setRange(axis, moved);
+    });
+  }
+
+  /** @param {number} axis @param {Range | null} range */
+  setRange(axis, range) {
+    if (range) this.ranges.set(axis, range);
+    else this.ranges.delete(axis);
+    this.show();
+  }
+
+  // ---- The map of two quantities --------------------------------------------------------------------------------------
+
+  drawMap() {
+    if (!this.map) return;
+    const { axes, samples } = this.explored, quantities = axes.map((_, k) => k).filter(k => axes[k].isQuantity);
+    this.map.replaceChildren();
+    const bar = made("div", { className: "controls" }, this.map);
+    for (const side of /** @type {("across" | "upward")[]} */ (["across", "upward"])) {
+      const label = made("label", { className: "choose", textContent: side === "across" ? "To the right " : "Upward " }, bar);
+      const choice = made("select", {}, label);
+      for (const k of quantities) made("option", { value: String(k), textContent: axes[k].name, selected: k === this[side] }, choice);
+      choice.addEventListener("change", () => {
+        this[side] = Number(choice.value);
+        this.drawMap();
+        this.show();
+      });
+    }
+    const width = Math.min(480, this.width || 480), left = 60, size = width - left - 14, height = Math.round(0.7 * size);
+    const svg = svgShape("svg", { class: "drawing explored", viewBox: [0, 0, width, height + 60].join(" "), width, height: height + 60,
+      role: "img", "aria-label": "Samples by " + axes[this.across].name + " and " + axes[this.upward].name }, this.map);
+    const [x0, x1] = this.extents[this.across], [y0, y1] = this.extents[this.upward];
+    /** @param {number} x */
+    const right = x => left + size * (x - x0) / (x1 - x0);
+    /** @param {number} y */
+    const down = y => 10 + height * (y1 - y) / (y1 - y0);
+    svgShape("rect", { class: "frame", x: left, y: 10, width: size, height }, svg);
+    this.drawProved(svg, right, down);
+    this.points = new Map(samples.map((_, i) => {
+      const x = right(axes[this.across].values[i] ?? NaN), y = down(axes[this.upward].values[i] ?? NaN), kind = this.kindOf(i);
+      const cross = "M" + (x - 3.5) + " " + (y - 3.5) + "l7 7m0 -7l-7 7", ring = "M" + (x - 2.5) + " " + y + "a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0 -5 0";
+      return [i, svgShape("path", { class: "point " + kind, d: kind === "missed" ? cross : ring }, svg)];
+    }));
+    for (const [value, anchor] of /** @type {[number, string][]} */ ([[x0, ""], [x1, "end"]])) {
+      svgShape("text", { class: anchor, x: right(value), y: height + 25 }, svg).textContent = shortNumber(value);
+    }
+    for (const value of [y0, y1]) svgShape("text", { class: "end", x: left - 6, y: down(value) + 4 }, svg).textContent = shortNumber(value);
+    /** @param {Axis} axis */
+    const words = ({ name, unit }) => name + (unit ? " (" + unit + ")" : "");
+    svgShape("text", { class: "middle bar", x: left + size / 2, y: height + 42 }, svg).textContent = words(axes[this.across]);
+    const turned = "translate(14 " + (10 + height / 2) + ") rotate(-90)";
+    svgShape("text", { class: "middle bar", transform: turned }, svg).textContent = words(axes[this.upward]);
+    made("p", { className: "hint", textContent: this.wordsOfMap() }, this.map);
+  }
+
+  /** @param {Element} svg @param {(x: number) => number} right @param {(y: number) => number} down */
+  drawProved(svg, right, down) {
+    const { met, violated } = this.requirement ?? { met: null, violated: [] };
+    if (met) {
+      const [[a, b], [c, d]] = [met[this.across], met[this.upward]];
+      svgShape("rect", { class: "proved", x: right(a), y: down(d), width: right(b) - right(a), height: down(c) - down(d) }, svg);
+    }
+    const x = violated[this.across], y = violated[this.upward];
+    if (x != null && y != null) svgShape("path", { class: "refuted", d: "M" + right(x) + " " + (down(y) - 6) + "l6 6l-6 6l-6 -6z" }, svg);
+  }
+
+  wordsOfMap() {
+    const { met, violated } = this.requirement ?? { met: null, violated: [] }, words = [];
+    if (this.requirement) words.push("Rings: samples that meet it; crosses: samples that violate it.");
+    if (met) {
+      words.push("Green frame: it is proved to be met there as long as no other quantity deviates by a greater share of its " +
+        "tolerance than the frame shows.");
+    }
+    if (violated[this.across] != null && violated[this.upward] != null) {
+      words.push("Filled diamond: values for which it is proved to be violated.");
+    }
+    if (this.requirement) words.push("Elsewhere the results hold no proof for single places.");
+    return words.join(" ");
+  }
+
+  // ---- What is chosen -------------------------------------------------------------------------------------------------
+
+  show() {
+    const { axes, samples, curves } = this.explored, chosen = chosenOf(axes, this.ranges, samples.length), isAll = this.ranges.size === 0;
+    const seen = new Set(chosen);
+    for (const shapes of [this.lines, this.points]) shapes?.forEach((shape, i) => shape.classList.toggle("faded", !seen.has(i)));
+    this.handles?.forEach(({ group, range }, k) => this.showRange(group, range, k));
+    const missed = chosen.filter(i => this.kindOf(i) === "missed").length;
+    this.said.textContent = chosen.length + " of " + samples.length + " chosen" + (this.requirement ? ", " + missed + " violate it" : "");
+    chooseCurves(isAll ? null : output => {
+      const known = curves[output];
+      return !known || known.low == null ? [] : chosen.map(i => ({
+        time: curves.time, isMissed: this.kindOf(i) === "missed",
+        values: known.lines[i].map(x => x == null ? null : (known.low ?? 0) + x * known.step),
+      })).sort((a, b) => Number(a.isMissed) - Number(b.isMissed));
+    });
+  }
+
+  /** @param {Element} group @param {Element} shape @param {number} axis */
+  showRange(group, shape, axis) {
+    const range = this.ranges.get(axis), [low, up] = this.extents[axis], { name, unit } = this.explored.axes[axis];
+    const [from, until] = range ?? [low, up];
+    shape.setAttribute("y", String(this.down(axis, until)));
+    shape.setAttribute("height", String(range ? Math.max(2, this.down(axis, from) - this.down(axis, until)) : 0));
+    group.setAttribute("aria-label", "Range of " + name);
+    const share = Math.round(100 * ((from + until) / 2 - low) / (up - low));  // numbers of any size are told as text
+    for (const [key, value] of [["min", 0], ["max", 100], ["now", share]]) group.setAttribute("aria-value" + key, String(value));
+    group.setAttribute("aria-valuetext", range ? shortNumber(from) + " to " + shortNumber(until) + " " + unit : "all");
+  }
+}
+
+for (const data of all("script.explored")) {
+  const section = /** @type {HTMLElement} */ (data.closest("section")), fold = /** @type {HTMLDetailsElement | null} */ (data.closest("details"));
+  let isMade = false;
+  const make = () => {
+    if (isMade || fold && !fold.open) return;
+    isMade = true;
+    new Explorer(one(".explorer-live", section), JSON.parse(data.textContent ?? ""));
+  };
+  fold?.addEventListener("toggle", make);
+  make();
+}
