@@ -1,7 +1,7 @@
 // Eigen with Interval, Samples and Fuzzy: matrices of any size and their blocks.
 #include "tests/scalars/eigen_of.hpp"
 
-namespace gamut {
+namespace gamut::eigen_dynamic_test {
 namespace {
 
 using namespace gamut::testing;
@@ -38,4 +38,4 @@ TYPED_TEST(EigenOfAnySizeWith, LargeProducts) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::eigen_dynamic_test

@@ -7,7 +7,7 @@
 #include "scalars/interval.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::eigen_interval_test {
 namespace {
 
 using namespace gamut::testing;
@@ -176,4 +176,4 @@ TEST_F(EigenWithInterval, DoublesAndMatricesOfDoublesMultiplyIntervals) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::eigen_interval_test

@@ -1,7 +1,7 @@
 // Eigen with Interval, Samples and Fuzzy: products of small matrices.
 #include "tests/scalars/eigen_of.hpp"
 
-namespace gamut {
+namespace gamut::eigen_products_test {
 namespace {
 
 using namespace gamut::testing;
@@ -23,4 +23,4 @@ TYPED_TEST(EigenProductsWith, ProductsWithMatricesOfDoubles) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::eigen_products_test

@@ -5,7 +5,7 @@
 
 #include "tests/scalars/eigen_of.hpp"
 
-namespace gamut {
+namespace gamut::eigen_test {
 namespace {
 
 using namespace gamut::testing;
@@ -39,4 +39,4 @@ TYPED_TEST(EigenWith, DeterminantAndInverseOfThreeByThreeNeedNoComparison) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::eigen_test

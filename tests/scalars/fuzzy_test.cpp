@@ -10,7 +10,7 @@
 
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::fuzzy_test {
 namespace {
 
 using namespace gamut::testing;
@@ -334,4 +334,4 @@ TEST(Fuzzy, PrintsFromSupportToCore) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::fuzzy_test

@@ -7,7 +7,7 @@
 #include "tests/scalars/containment.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::interval_containment_test {
 namespace {
 
 using namespace gamut::testing;
@@ -47,4 +47,4 @@ std::string testName(const ::testing::TestParamInfo<std::string>& info) {
 INSTANTIATE_TEST_SUITE_P(Interval, IntervalContainment, ::testing::ValuesIn(functionNames()), testName);
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::interval_containment_test

@@ -11,7 +11,7 @@
 
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::interval_text_test {
 namespace {
 
 using namespace gamut::testing;
@@ -320,4 +320,4 @@ TEST(IntervalText, ADoubleIsPrintedAsTheShortestDecimalThatIsReadBackAsIt) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::interval_text_test

@@ -8,7 +8,7 @@
 
 #include "tests/scalars/laws.hpp"
 
-namespace gamut {
+namespace gamut::laws_test {
 namespace {
 
 using namespace gamut::testing;
@@ -287,4 +287,4 @@ TYPED_TEST(EverySet, HasEveryOperationOrIsRecordedWhichLeavesOutTheSteps) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::laws_test

@@ -10,7 +10,7 @@
 #include "tests/scalars/high_precision.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::membership_test {
 namespace {
 
 using namespace gamut::testing;
@@ -266,4 +266,4 @@ TEST(Membership, SaysOfWhichNumbersItIsMade) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::membership_test

@@ -11,7 +11,7 @@
 #include "scalars/program/differentiation.hpp"
 #include "tests/scalars/program/random_program.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::recorded_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -257,4 +257,4 @@ TEST(Record, WithoutRulesKeepsEveryOperation) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::recorded_test

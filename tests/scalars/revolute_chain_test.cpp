@@ -9,7 +9,7 @@
 #include "scalars/recorded.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut::benchmarks {
+namespace gamut::benchmarks::revolute_chain_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -79,4 +79,4 @@ TEST(RevoluteChain, ForwardDynamicsInvertsInverseDynamics) {
 }
 
 }  // namespace
-}  // namespace gamut::benchmarks
+}  // namespace gamut::benchmarks::revolute_chain_test

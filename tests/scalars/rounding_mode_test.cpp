@@ -12,7 +12,7 @@
 #include "scalars/elementary/rounding.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::rounding_mode_test {
 namespace {
 
 using namespace gamut::testing;
@@ -334,4 +334,4 @@ TEST(RoundingModes, FusedAndUnfusedRemaindersHaveTheSameSign) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::rounding_mode_test

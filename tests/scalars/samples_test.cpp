@@ -8,7 +8,7 @@
 #include "scalars/elementary/vector_functions.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::samples_test {
 namespace {
 
 using namespace gamut::testing;
@@ -149,4 +149,4 @@ TEST(Samples, PrintTheirValues) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::samples_test

@@ -10,7 +10,7 @@
 #include "tests/scalars/program/random_program.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::linear_reduction_test {
 namespace {
 
 using Entries = std::vector<Recorded>;
@@ -171,4 +171,4 @@ TEST(LinearReduction, OfManyRandomSystemsHasTheFullSolution) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::linear_reduction_test

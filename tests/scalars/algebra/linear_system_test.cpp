@@ -9,7 +9,7 @@
 #include "tests/scalars/high_precision.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::linear_system_test {
 namespace {
 
 using ::testing::Each;
@@ -350,4 +350,4 @@ TEST(LinearSystem, RefusesWhatDoesNotFitTogether) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::linear_system_test

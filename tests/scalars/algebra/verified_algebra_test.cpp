@@ -10,7 +10,7 @@
 #include "tests/scalars/high_precision.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::verified_algebra_test {
 namespace {
 
 using namespace gamut::testing;
@@ -650,4 +650,4 @@ TEST(VerifiedAlgebra, HoldsForElementsOfAllMagnitudesInEveryRoundingMode) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::verified_algebra_test

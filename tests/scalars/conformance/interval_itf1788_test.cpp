@@ -12,7 +12,7 @@
 #include "tests/scalars/conformance/itf1788.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::interval_itf1788_test {
 namespace {
 
 using namespace gamut::testing;
@@ -288,4 +288,4 @@ TEST(Itf1788Reader, RefusesWhatItCannotReadInsteadOfDroppingIt) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::interval_itf1788_test

@@ -14,7 +14,7 @@
 #include "scalars/elementary/kernels.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::elementary_test {
 namespace {
 
 using namespace gamut::testing;
@@ -589,4 +589,4 @@ TEST(ElementaryRanges, OfInverseSineAndCosineAreThoseOfTheDomain) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::elementary_test

@@ -10,7 +10,7 @@
 
 #include "scalars/elementary/mpfr_bounds.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::fine_functions_test {
 namespace {
 
 using detail::DoubleDouble;
@@ -59,4 +59,4 @@ TEST(FineFunctions, SayWhatIsNotDefinedOrTooLarge) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::fine_functions_test

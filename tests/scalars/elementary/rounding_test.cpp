@@ -4,7 +4,7 @@
 
 #include "tests/scalars/reference.hpp"
 
-namespace gamut {
+namespace gamut::rounding_test {
 namespace {
 
 using namespace gamut::testing;
@@ -154,4 +154,4 @@ TEST(Rounding, UndefinedResultsGetTheBoundsThatAreAlwaysTrue) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::rounding_test

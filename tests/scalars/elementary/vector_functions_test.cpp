@@ -6,7 +6,7 @@
 
 #include "tests/scalars/reference.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::vector_functions_test {
 namespace {
 
 /// |value - f(x)| in units of the last place of the double nearest to f(x).
@@ -105,4 +105,4 @@ TEST(VectorFunctions, AcceptArraysOfAnyLengthAndMayOverwriteThem) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::vector_functions_test

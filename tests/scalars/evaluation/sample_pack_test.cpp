@@ -13,7 +13,7 @@
 #include "tests/scalars/program/random_program.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::sample_pack_test {
 namespace {
 
 constexpr std::size_t width = packWidth;
@@ -187,4 +187,4 @@ TEST(EvaluateSamples, RefusesRowsOfOtherLengths) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::sample_pack_test

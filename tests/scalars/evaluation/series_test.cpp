@@ -7,7 +7,7 @@
 #include "tests/scalars/high_precision.hpp"
 #include "tests/scalars/program/random_program.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::series_test {
 namespace {
 
 using Numbers = std::vector<HighPrecision>;
@@ -117,4 +117,4 @@ TEST(Series, OfIntervalsHoldTheCoefficientsOfEveryPoint) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::series_test

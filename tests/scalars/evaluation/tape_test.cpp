@@ -9,7 +9,7 @@
 #include "tests/scalars/program/random_program.hpp"
 #include "tests/scalars/reference.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::tape_test {
 namespace {
 
 /// Node by node, as the Program says: what every evaluator is judged by.
@@ -282,4 +282,4 @@ TEST(Tape, LeavesOutWhatOnlyDerivativesRead) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::tape_test

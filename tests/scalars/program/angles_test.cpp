@@ -9,7 +9,7 @@
 #include "scalars/evaluation/evaluate.hpp"
 #include "scalars/recorded.hpp"
 
-namespace gamut {
+namespace gamut::angles_test {
 namespace {
 
 TEST(HalfTurns, HaveAValueOnTheNegativeAxisAndAllDigitsBesideIt) {
@@ -43,4 +43,4 @@ TEST(HalfTurns, HaveAValueOnTheNegativeAxisAndAllDigitsBesideIt) {
 }
 
 }  // namespace
-}  // namespace gamut
+}  // namespace gamut::angles_test

@@ -9,7 +9,7 @@
 #include "scalars/recorded.hpp"
 #include "tests/scalars/program/random_program.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::differentiation_test {
 namespace {
 
 TEST(Differentiation, ForwardAndReverseGiveTheSameJacobian) {
@@ -148,4 +148,4 @@ TEST(Differentiation, OfADerivativeIsTheSecondDerivative) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::differentiation_test

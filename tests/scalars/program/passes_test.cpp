@@ -11,7 +11,7 @@
 #include "scalars/recorded.hpp"
 #include "tests/scalars/program/random_program.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::passes_test {
 namespace {
 
 int count(const Program& program, Op op) {
@@ -28,7 +28,7 @@ TEST(Rules, EachKeepsTheValueOfWhatItReplacesAndFindsWork) {
     std::vector<std::string_view> laws;
     for (int i = 0; i < static_cast<int>(program.nodes().size()); ++i) {
       const Node n = program.nodes()[static_cast<std::size_t>(i)];
-      if (!isOperation(n.op)) continue;
+      if (!gamut::isOperation(n.op)) continue;
       for (const Rule& rule : rulesOf(n.op)) {
         const int result = rule.apply(recorder, n.a, n.b);
         if (result < 0) continue;
@@ -376,4 +376,4 @@ TEST(SumsOfProducts, AreCountedWithTheOperations) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::passes_test

@@ -12,7 +12,7 @@
 #include "scalars/index.hpp"
 #include "tests/scalars/high_precision.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::program_test {
 namespace {
 
 constexpr double t0 = 0.3;
@@ -285,4 +285,4 @@ TEST(Recording, IsNeededForArithmeticAndEndsWithItsGuard) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::program_test

@@ -15,7 +15,7 @@
 #include "scalars/recorded.hpp"
 #include "tests/scalars/program/random_program.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::program_text_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -412,4 +412,4 @@ TEST(SavedProgram, BrokenAtRandomIsRefusedOrIsAnotherProgramButNeverMore) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::program_text_test

@@ -9,7 +9,7 @@
 #include "scalars/program/linear_form.hpp"
 #include "scalars/recorded.hpp"
 
-namespace gamut::testing {
+namespace gamut::testing::sides_test {
 namespace {
 
 /// A mass on a spring that rubs: states x, v; parameter c.
@@ -314,4 +314,4 @@ TEST(Sides, FactorsWithoutStatesAreTakenOffSigns) {
 }
 
 }  // namespace
-}  // namespace gamut::testing
+}  // namespace gamut::testing::sides_test
