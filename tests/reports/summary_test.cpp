@@ -475,8 +475,11 @@ std::size_t rowsOf(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+/// As if no sample had left what is guaranteed.
 std::string ranSummary(const Results& results, const SummaryStyle& style = {}) {
-  return runSummary(results, judge(results), "Lead.", style);
+  Verdict verdict = judge(results);
+  verdict.word = Agreement::incomplete;
+  return runSummary(results, verdict, "Lead.", style);
 }
 
 /// So many requirements, each violated but the last.

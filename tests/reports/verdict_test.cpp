@@ -402,9 +402,10 @@ TEST(Verdict, NamesCornersAndTheCentreAsSuch) {
   results.stochastic.integrated = results.stochastic.planned();
   for (const std::int64_t number : {4095, 4096, 4098, 4115, 4116})
     dispute(results, 1e-6, Decider::interrupted).number = number;
-  EXPECT_THAT(judge(results).notes,
-              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 0 ("), StartsWith("Alpha-corner 0 ("),
-                          StartsWith("Alpha-corner 17 ("), StartsWith("The centre (")));
+  EXPECT_THAT(
+      judge(results).notes,
+      ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 0 ("), StartsWith("Corner 0 of the alpha-cuts ("),
+                  StartsWith("Corner 17 of the alpha-cuts ("), StartsWith("The centre (")));
   results.comparison.disputed.clear();
   EXPECT_THAT(judge(results).sentence, StartsWith("All 4117 sampled motions stay inside"));
 }
