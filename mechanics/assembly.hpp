@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mechanics/angle_courses.hpp"
 #include "mechanics/assembler.hpp"
 #include "mechanics/equations/system.hpp"
 #include "mechanics/equations/unfolding.hpp"

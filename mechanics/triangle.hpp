@@ -17,25 +17,13 @@
 // Source: A. Kecskeméthy, T. Krupp, M. Hiller, Multibody System Dynamics 1 (1997), 23 (pairs of joints).
 #pragma once
 
-#include <functional>
-#include <map>
 #include <memory>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "mechanics/element.hpp"
 
 namespace gamut {
-
-/// What the angle of a joint is never half a turn away from: `middle` [rad] and so many times angles that drives give.
-struct AngleCourse {
-  double middle = 0;
-  std::vector<std::pair<std::string, int>> turns;  ///< coordinates
-};
-/// By coordinate.
-using AngleCourses = std::map<std::string, AngleCourse, std::less<>>;
 
 /// A hinge as a triangle has put it.
 template <class S>

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/angle_courses.hpp"
 #include "mechanics/description/mechanism.hpp"
-#include "mechanics/triangle.hpp"
 
 namespace gamut {
 

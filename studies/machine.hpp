@@ -12,7 +12,7 @@
 #include "analyses/samples/courses.hpp"
 #include "analyses/samples/ensemble.hpp"
 #include "analyses/uncertainty.hpp"
-#include "mechanics/triangle.hpp"
+#include "mechanics/angle_courses.hpp"
 #include "scalars/program/program.hpp"
 #include "studies/study.hpp"
 

@@ -201,7 +201,7 @@ TEST_F(TwoArms, OfHullsAreHeldApart) {
 
 /// An arm that a drive turns by 60° in a plane, with these shapes besides, their numbers in mm; what is uncertain is
 /// how far out its own shape is.
-Results turned(const std::string& shapes, const std::string& share, const std::string& further) {
+Results resultsTurned(const std::string& shapes, const std::string& share, const std::string& further) {
   return run(readStudyText(R"toml([study]
 analysis = "inverse-dynamics"
 horizon = "1 s"
@@ -287,7 +287,7 @@ quantity = "gap.from.y"
 TEST(ShapesThatOverlap, HaveNearestPointsOnThemselves) {
   for (const auto& [shapes, x, y, wide, high] :
        {std::tuple(twoRods, 0.25, 0.2, 0.02, 0.02), {twoBoxes, 0.1, 0.36, 0.1, 0.05}}) {
-    const Results results = turned(shapes, "1 %", points);
+    const Results results = resultsTurned(shapes, "1 %", points);
     ASSERT_EQ(results.interval.reached, 1) << results.interval.why;
     EXPECT_EQ(results.comparison.verdict, Agreement::inside);
     constexpr double beyond = 1 + 0x1p-9;
@@ -310,9 +310,9 @@ TEST(ShapesThatOverlap, HaveNearestPointsOnThemselves) {
 TEST(ShapesThatOverlap, AreProvedApartWhereTheyAre) {
   std::string far = twoBoxes;
   far.replace(far.find("360 mm"), 6, "460 mm");
-  const Results results = turned(far, "10 %",
-                                 "[[output]]\nquantity = \"gap.distance\"\n[[requirement]]\nname = \"apart\"\n"
-                                 "always = \"gap.distance > 5 mm\"\n");
+  const Results results = resultsTurned(far, "10 %",
+                                        "[[output]]\nquantity = \"gap.distance\"\n[[requirement]]\nname = \"apart\"\n"
+                                        "always = \"gap.distance > 5 mm\"\n");
   ASSERT_EQ(results.requirements.size(), 1U);
   EXPECT_EQ(results.requirements[0].word, Decision::met);
 }

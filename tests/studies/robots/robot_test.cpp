@@ -158,7 +158,8 @@ void expectHolds(const Robot::Shape& hull, const std::vector<ExactPoint>& mesh) 
         for (const auto& point : hull.points) own = std::max(own, along(n, point));
         for (const ExactPoint& point : mesh) others = std::max(others, along(n, point));
         const mpq_class beyond = others - own;
-        EXPECT_LE(beyond > 0 ? mpq_class(beyond * beyond) : mpq_class(0), radius * radius * (x * x + y * y + z * z));
+        EXPECT_TRUE(beyond <= 0 || beyond * beyond <= radius * radius * (x * x + y * y + z * z))
+            << x << ' ' << y << ' ' << z;
       }
 }
 
