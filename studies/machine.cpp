@@ -162,17 +162,11 @@ Program placedOf(const Study& study, std::size_t values,
   });
 }
 
-/// Where directions go far round, as those of plays, or something varies, of which nothing that is followed knows
-/// enough; else coordinates are followed, which knows more between output times. None where a witness is asked for,
-/// which follows them as states.
+/// None where a witness is asked for, which follows coordinates as states.
 std::optional<AngleCourses> placedIn(const Study& study, const std::vector<std::string>& parameters) {
-  constexpr double farRound = 1.5;  // rad, as in circles.cpp
-  const bool isRound = std::ranges::any_of(study.uncertain, [](const UncertainQuantity& quantity) {
-    return quantity.varies || (quantity.unit == "rad" && width(quantity.uncertain.range) > farRound);
-  });
   const bool isFollowed = std::ranges::any_of(
       study.analyses, [](const auto& each) { return each->section() == "witness" && each->isAsked(); });
-  if (study.analysis != Study::Analysis::inverseDynamics || !isRound || isFollowed) return std::nullopt;
+  if (study.analysis != Study::Analysis::inverseDynamics || isFollowed) return std::nullopt;
   return placedLoops(study.mechanism, parameters, study.horizon);
 }
 
