@@ -14,7 +14,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mechanics/angle_courses.hpp"
 #include "mechanics/assembler.hpp"
 #include "mechanics/equations/system.hpp"
 #include "mechanics/equations/unfolding.hpp"
@@ -48,15 +47,6 @@ class Assembly {
   /// the nominal position, of which the start is the remainder; motions that strike rigid ends are unfolded
   /// (equations/unfolding.hpp).
   void setMotion(std::span<const S> x, const S& time = S(0.0));
-  /// From the next motion on, loops that close as triangles do put their joints' angles too, which are then no states:
-  /// each is where it is within half a turn of its course.
-  void placeAngles(AngleCourses courses) { courses_ = std::move(courses); }
-  /// Whether each loop stands where it closes, in closed form, since setMotion().
-  bool areLoopsPlaced() const;
-  /// The states at which the loops are closed at this time, found from these by Newton's steps, of which none turns by
-  /// more than half a radian; empty where it is not found, or a triangle is not on its side. Of machines that move by
-  /// nothing but drives and loops.
-  std::vector<double> closedAt(std::vector<double> x, double time) requires std::same_as<S, double>;
   /// u̇ for the present state.
   std::vector<S> accelerations(Formulation formulation = Formulation::sparse);
   /// ẋ for the present state: rates of positions, accelerations, rates of own states.
@@ -142,7 +132,6 @@ class Assembly {
   void findTriangles(const Mechanism& mechanism);
   void placeTriangles();
   void releaseTriangles();
-  void placeAnglesOf(const Triangle<S>& triangle);
   void endWhereOpen();
   std::vector<S> opening();
   void placeAtStart();
@@ -177,7 +166,6 @@ class Assembly {
     bool isPlaced = false;
   };
   std::vector<Loop> loops_;
-  AngleCourses courses_;
   bool placesTriangles_ = false;          // by the next states
   bool areLoopsHeld_ = false;             // by multipliers: rates of dependent coordinates are states too
   std::vector<S> initialState_, origin_;  // the second: what differences of states are from; else zero

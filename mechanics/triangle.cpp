@@ -177,7 +177,6 @@ class PlanarTriangle final : public Triangle<S> {
 
   void place(double side) override {
     using std::sqrt;
-    placed_.clear();
     if (PrismaticJoint<S>* slide = slideOf()) {
       const S s = S(side) * sqrt(squaredLength_ - square(cross(c_, d_))) - dot(c_, d_);
       slide->path().position = s;
@@ -193,8 +192,6 @@ class PlanarTriangle final : public Triangle<S> {
     turn(0, z, on_[0]);
     if (kind_ != Kind::withRod) turn(1, direction(b_, e_ - r), kind_ == Kind::inTurn ? z * on_[1] : on_[1]);
   }
-
-  const std::vector<PlacedHinge<S>>& placed() const override { return placed_; }
 
   void release() override {
     for (Leg<S>& leg : legs_)
@@ -212,9 +209,7 @@ class PlanarTriangle final : public Triangle<S> {
   void turn(std::size_t leg, const Planar<S>& z, const Planar<S>& on) {
     RevoluteJoint<S>& hinge = *legs_[leg].hinge;
     const Planar<S> by = z * on.conjugate();
-    const S sine = S(hinge.axis().sign()) * by.y;
-    hinge.standBy(by.x, sine, view_.turned(z).after(base_->R));
-    placed_.push_back({&hinge.angle(), by.x, sine});
+    hinge.standBy(by.x, S(hinge.axis().sign()) * by.y, view_.turned(z).after(base_->R));
   }
 
   void look() {
@@ -287,7 +282,6 @@ class PlanarTriangle final : public Triangle<S> {
   const Frame<S>* base_ = nullptr;  // in whose plane all this is
   Planar<S> a_, b_, c_, d_, e_;
   S squaredLength_ = S(0.0);
-  std::vector<PlacedHinge<S>> placed_;
   std::array<Planar<S>, 2> on_;  // directions of what carries the joints; of the outer of two in turn, on the inner one
 };
 

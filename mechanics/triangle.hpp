@@ -25,13 +25,6 @@
 
 namespace gamut {
 
-/// A hinge as a triangle has put it.
-template <class S>
-struct PlacedHinge {
-  Variable<S>* angle;
-  S cosine, sine;
-};
-
 /// Of double, to learn how a machine is assembled, and of Recorded.
 template <class S>
 class Triangle {
@@ -50,8 +43,6 @@ class Triangle {
   virtual S side() const = 0;
   /// After given(): puts the joints to where the loop is closed, with n of this sign.
   virtual void place(double side) = 0;
-  /// Its hinges as they were put last.
-  virtual const std::vector<PlacedHinge<S>>& placed() const = 0;
   /// The joints stand by their coordinates again.
   virtual void release() = 0;
 };

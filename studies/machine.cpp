@@ -23,7 +23,6 @@
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "mechanics/rest.hpp"
-#include "mechanics/whole_turns.hpp"
 #include "scalars/program/recorder.hpp"
 #include "scalars/recorded.hpp"
 #include "studies/assumed_rows.hpp"
@@ -142,48 +141,18 @@ void restUnread(const Study& study, Motion& motion) {
   motion.f = withOthersAtRest(motion.f, neededStates(motion.f, readers, true));
 }
 
-/// Of loops that are placed: one state, which rests, where those of the machine were, of which nothing is read.
-Program placedOf(const Study& study, std::size_t values,
-                 const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what,
-                 const AngleCourses& placed) {
-  const std::vector<std::string> parameters = freeParametersOf(study);
-  const std::size_t given = study.mechanism.stateNames().size();
-  const int count = static_cast<int>(parameters.size()), outputs = static_cast<int>(values);
-  const Program ofStates =
-      record(static_cast<int>(given), count, outputs, [&](auto t, const auto& x, const auto& p, auto& y) {
-        Assembly<Recorded> assembly(study.mechanism, parameters, p);
-        assembly.placeAngles(placed);
-        assembly.setMotion(x, t);
-        std::ranges::copy(what(assembly), y.begin());
-      });
-  return record(1, count, outputs, [&](auto t, const auto&, const auto& p, auto& y) {
-    const std::vector<Recorded> nothing(given, Recorded(0.0));
-    std::ranges::copy(written(ofStates, nothing, {p.begin(), p.end()}, Recorded(t)), y.begin());
-  });
-}
-
-/// None where a witness is asked for, which follows coordinates as states.
-std::optional<AngleCourses> placedIn(const Study& study, const std::vector<std::string>& parameters) {
-  const bool isFollowed = std::ranges::any_of(
-      study.analyses, [](const auto& each) { return each->section() == "witness" && each->isAsked(); });
-  if (study.analysis != Study::Analysis::inverseDynamics || isFollowed) return std::nullopt;
-  return placedLoops(study.mechanism, parameters, study.horizon);
-}
-
-Program recordedOutputs(const Study& study, const Rest* rest, bool withinEnds = false,
-                        const std::optional<AngleCourses>& placed = {}) {
+Program recordedOutputs(const Study& study, const Rest* rest, bool withinEnds = false) {
   const std::vector<Expression> outputs = outputExpressions(study);
   return recordedOf(
       study, rest, outputs.size(), [&](const Assembly<Recorded>& assembly) { return recordOutputs(assembly, outputs); },
-      withinEnds, placed);
+      withinEnds);
 }
 
-void recordAnalysis(const Study& study, const Rest* rest, const std::optional<AngleCourses>& placed,
-                    const std::vector<std::string>& parameters, Motion& motion) {
-  if (study.isMotionGiven() || placed) {
+void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std::string>& parameters, Motion& motion) {
+  if (study.isMotionGiven()) {
     motion.f =
         record(1, static_cast<int>(parameters.size()), [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
-    motion.g = recordedOutputs(study, rest, false, placed);
+    motion.g = recordedOutputs(study, rest);
   } else if (study.moves()) {
     refuseMasslessLoops(study);
     motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
@@ -201,13 +170,12 @@ void recordAnalysis(const Study& study, const Rest* rest, const std::optional<An
 void takeNumbers(Machine& machine) {
   const Mechanism& mechanism = machine.study.mechanism;
   UncertainMotion& motion = machine.motion;
-  const std::vector<std::string> names =
-      machine.rest || machine.placed ? std::vector<std::string>() : mechanism.stateNames();
+  const std::vector<std::string> names = machine.rest ? std::vector<std::string>() : mechanism.stateNames();
   const std::vector<bool> isDifference = mechanism.startsWith(machine.freeParameters);
   if (machine.rest) machine.box.assign(machine.rest->remainders(), Interval(0.0));
   for (std::size_t i = 0; i < names.size(); ++i)
     machine.box.push_back(isDifference[i] ? Interval(0.0) : mechanism.rangeOf(mechanism.initialState()[i]));
-  if (machine.isMotionGiven()) machine.box.emplace_back(0.0);
+  if (machine.study.isMotionGiven()) machine.box.emplace_back(0.0);
   machine.states = machine.box.size();
   std::unordered_map<std::string, int> slotOf;
   for (std::size_t i = 0; i < names.size(); ++i) slotOf[names[i]] = static_cast<int>(i);
@@ -239,8 +207,7 @@ std::function<bool(double)> withinAMinute(const Machine::Progress& progress, con
 /// they do is proved only with Newton's steps from the nominal position. What is left open, where it is proved.
 Box approachLoops(Machine& machine, const Machine::Progress& progress) {
   constexpr std::size_t few = 6;  // rows: Newton's steps lose little, and come nearer for wide tolerances
-  if (machine.rest || machine.placed) return {};
-  if (machine.study.mechanism.dependents().size() <= few || machine.freeParameters.empty()) return {};
+  if (machine.rest || machine.study.mechanism.dependents().size() <= few || machine.freeParameters.empty()) return {};
   Mechanism& mechanism = machine.study.mechanism;
   const std::vector<std::string>& names = machine.freeParameters;
   const Box parameters(machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end());
@@ -337,7 +304,7 @@ void closeFamilies(Machine& machine, const Box& open, const Machine::Progress& p
   if (machine.rest) {
     machine.closing = machine.rest->families();
     for (std::size_t i = 0; i < machine.states; ++i) machine.remainders.push_back(static_cast<int>(i));
-  } else if (mechanism.isClosed() && !machine.placed) {
+  } else if (mechanism.isClosed()) {
     machine.closing = {recordClosing(mechanism, machine.freeParameters)};
     refuseVaryingLoops(machine.study, machine.freeParameters);
     std::vector<std::string> dependents = mechanism.dependents();
@@ -369,9 +336,7 @@ void takeLevels(Machine& machine) {
 }  // namespace
 
 Program recordedOf(const Study& study, const Rest* rest, std::size_t values,
-                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what, bool withinEnds,
-                   const std::optional<AngleCourses>& placed) {
-  if (placed) return placedOf(study, values, what, *placed);
+                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what, bool withinEnds) {
   const std::vector<std::string> parameters = freeParametersOf(study);
   const bool moves = study.moves();
   const std::size_t given = rest != nullptr ? rest->remainders() : study.mechanism.stateNames().size();
@@ -410,14 +375,14 @@ std::shared_ptr<const Rest> restOf(const Study& study) {
   }
 }
 
-Motion recordedMotion(const Study& study, const Rest* rest, const std::optional<AngleCourses>& placed) {
+Motion recordedMotion(const Study& study, const Rest* rest) {
   Motion motion;
   motion.times = study.times;
   for (const OutputInfo& output : study.outputs) motion.outputNames.push_back(output.name);
   try {
     checkStart(study.mechanism);
     const MemoryBound bound(StatedLimits{}.resolved().memory);  // what a study states is of its runs
-    recordAnalysis(study, rest, placed, freeParametersOf(study), motion);
+    recordAnalysis(study, rest, freeParametersOf(study), motion);
   } catch (...) {
     refuseMechanism(study);
   }
@@ -428,10 +393,9 @@ Machine::Machine(Study of, const Progress& progress) : study(std::move(of)), fre
   const double start = processCpuSeconds();
   if (progress) progress("equations", 0);
   rest = restOf(study);
-  placed = placedIn(study, freeParameters);
   takeNumbers(*this);
   const Box open = approachLoops(*this, progress);
-  motion.motion = recordedMotion(study, rest.get(), placed);
+  motion.motion = recordedMotion(study, rest.get());
   if (rest) plain = recordedOutputs(study, rest.get(), true);
   closeFamilies(*this, open, progress);
   cpu = processCpuSeconds() - start;

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,6 @@
 #include "analyses/samples/courses.hpp"
 #include "analyses/samples/ensemble.hpp"
 #include "analyses/uncertainty.hpp"
-#include "mechanics/angle_courses.hpp"
 #include "scalars/program/program.hpp"
 #include "studies/study.hpp"
 
@@ -60,10 +58,7 @@ struct Machine {
   Program plain;           ///< at rest equations().g as plain intervals know most of it; else none
   UncertainMotion motion;  ///< the equations as samples follow them: what varies in time takes the course that its
                            ///< number chooses
-  std::optional<AngleCourses> placed;  ///< of driven loops that stand where closed forms put them (whole_turns.hpp)
 
-  /// Time passes, but nothing is left to follow: programs have one state, which rests.
-  bool isMotionGiven() const { return study.isMotionGiven() || placed; }
   /// In which what varies in time is a parameter; where no time passes: g of parameters alone.
   const Motion& equations() const { return courses.empty() ? motion.motion : motion.switching.motion; }
   /// A box of other ranges, for all values of which loops are proved to close, or position and modes of rest to exist.
@@ -81,19 +76,14 @@ struct Machine {
 std::shared_ptr<const Rest> restOf(const Study& study);
 
 /// The programs of a study's mechanism, as Machine::equations; throws as Machine does. `rest`: restOf() if it has one.
-/// `placed`: as Machine::placed.
-Motion recordedMotion(const Study& study, const Rest* rest, const std::optional<AngleCourses>& placed = {});
+Motion recordedMotion(const Study& study, const Rest* rest);
 inline Motion recordedMotion(const Study& study) { return recordedMotion(study, restOf(study).get()); }
 
 /// `what(assembly)`, so many values, at a state and time of a study's motion: takes what Machine::equations take.
 /// `withinEnds`: as of Rest::at.
 Program recordedOf(const Study& study, const Rest* rest, std::size_t values,
-                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what, bool withinEnds = false,
-                   const std::optional<AngleCourses>& placed = {});
-inline Program recordedOf(const Machine& machine, std::size_t values,
-                          const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what) {
-  return recordedOf(machine.study, machine.rest.get(), values, what, false, machine.placed);
-}
+                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what,
+                   bool withinEnds = false);
 
 /// What is looked at, each in its unit.
 std::vector<Expression> outputExpressions(const Study& study);

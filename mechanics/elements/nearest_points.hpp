@@ -12,9 +12,6 @@
 //
 // A direction is that of w, divided by |w|. Where |w| is less than `leastDistance` it is any one with components from
 // -1 to 1.
-//
-// Points lie between the ends of their shapes, and components of directions between -1 and 1, whatever they are made
-// of: so bounds lie no more than a thousandth beyond, even where |w| may be zero, or any of many pairs the nearest.
 #pragma once
 
 #include <algorithm>
@@ -65,19 +62,16 @@ S isBelow(const S& x, double limit) {
   return S(0.5) + S(0.5) * signOf(S(S(limit) - x));
 }
 
-/// So much beyond, as a share, that what is at an end is known to be within it.
-inline constexpr double beyondEnds = 0x1p-10;
-
 /// A unit vector along w [m]; where w is next to nothing, any of [-1, 1]³.
 template <class S>
 Vector3<S> directionAlong(const Vector3<S>& w) {
   using std::max, std::sqrt;
-  constexpr double leastDistance = 0x1p-40, almost = 1 + beyondEnds;  // m, 1
+  constexpr double leastDistance = 0x1p-40;  // m
   const S size = sqrt(squares(w)), divisor = max(size, S(leastDistance)), isNone = isBelow(size, leastDistance);
   Vector3<S> direction;
   for (int i = 0; i < 3; ++i) {
     const S along = w[i] / divisor;
-    direction[i] = within(S(along + (anySign<S>() - along) * isNone), S(almost));
+    direction[i] = along + (anySign<S>() - along) * isNone;
   }
   return direction;
 }
@@ -200,7 +194,6 @@ class SolidNearest {
 
  private:
   using Edge = typename Solid<S>::Edge;
-  using Extent = typename Solid<S>::Extent;
 
   Vector3<S> inOther(const Vector3<S>& point) const { return pair_.origin_ + pair_.axes_ * point; }
   NearestPoints<S> fromCorner(std::size_t corner) const {
@@ -212,8 +205,6 @@ class SolidNearest {
   void offerEdges(NearestPair<S>& nearest) const;
   NearestPoints<S> across(int ofOne, int ofOther) const;
   NearestPoints<S> alongAxis(int axis) const;
-  NearestPoints<S> candidate() const;
-  Extent extentOfOne(int axis) const;
 
   const SolidPair<S>& pair_;
   const Solid<S>&one_, &other_;
@@ -221,18 +212,6 @@ class SolidNearest {
 
 template <class S>
 NearestPoints<S> SolidNearest<S>::points() const {
-  NearestPoints<S> points = candidate();
-  for (int axis = 0; axis < 3; ++axis) {
-    const Extent own = extentOfOne(axis), others = other_.extent(unitMatrix<S>().col(axis));
-    points.one[axis] = own.middle + within(S(points.one[axis] - own.middle), S(own.half * S(1 + beyondEnds)));
-    points.other[axis] =
-        others.middle + within(S(points.other[axis] - others.middle), S(others.half * S(1 + beyondEnds)));
-  }
-  return points;
-}
-
-template <class S>
-NearestPoints<S> SolidNearest<S>::candidate() const {
   if (const auto [ofOne, ofOther] = pair_.shared(); ofOther >= 0) return across(ofOne, ofOther);
   NearestPair<S> nearest(fromCorner(0), sizeOf(one_) + sizeOf(other_));
   for (std::size_t k = 1; k < one_.corners.size(); ++k) nearest.offer(fromCorner(k));
@@ -295,18 +274,13 @@ NearestPoints<S> SolidNearest<S>::across(int ofOne, int ofOther) const {
   return points;
 }
 
-/// What the first reaches along an axis of the second.
-template <class S>
-typename Solid<S>::Extent SolidNearest<S>::extentOfOne(int axis) const {
-  Extent own = one_.extent(pair_.inOne(unitMatrix<S>().col(axis)));
-  own.middle = pair_.origin_[axis] + own.middle;
-  return own;
-}
-
 /// Of what both reach along an axis, as that component.
 template <class S>
 NearestPoints<S> SolidNearest<S>::alongAxis(int axis) const {
-  const NearestNumbers<S> numbers(extentOfOne(axis), other_.extent(unitMatrix<S>().col(axis)));
+  const Vector3<S> direction = unitMatrix<S>().col(axis);
+  auto own = one_.extent(pair_.inOne(direction));
+  own.middle = pair_.origin_[axis] + own.middle;
+  const NearestNumbers<S> numbers(own, other_.extent(direction));
   NearestPoints<S> points(zeroVector<S>(), zeroVector<S>());
   points.one[axis] = numbers.one;
   points.other[axis] = numbers.other;

@@ -207,9 +207,6 @@ class SolidPair {
   /// 1 where they overlap, 0 where they are apart; the latter as seen along a direction that is shared.
   S overlap() const;
   S overlapAcross(int ofOne, int ofOther) const;
-  /// Gaps along unit vectors across the shared direction, which tell whether they overlap there.
-  std::vector<S> gapsAcross(int ofOne, int ofOther) const;
-  static S squareOfGreatest(const std::vector<S>& gaps);
   static S isNone(const S& gap) { return S(0.5) - S(0.5) * signOf(gap); }
 
   Solid<S> one_, other_;
@@ -242,7 +239,7 @@ S SolidPair<S>::squareBetween() const {
 /// Across the direction `ofOther` of a box, which is `ofOne` of another box, or at right angles to a segment.
 template <class S>
 S SolidPair<S>::squareAcross(int ofOne, int ofOther) const {
-  using std::max, std::min;
+  using std::abs, std::min;
   const Vector3<S>& across = other_.directions[detail::at(ofOther)];
   const auto flat = [&](Vector3<S> x) {
     x[ofOther] = S(0.0);
@@ -258,38 +255,19 @@ S SolidPair<S>::squareAcross(int ofOne, int ofOther) const {
     if ((k >> detail::at(ofOther) & 1U) == 0)
       least = min(least,
                   isSegment ? segment.squareTo(flat(other_.corners[k])) : one_.squareAcross(otherCorners_[k], ofOne));
-  return square(positive(gap(across))) +
-         S(max(S(least * (S(1.0) - overlapAcross(ofOne, ofOther))), squareOfGreatest(gapsAcross(ofOne, ofOther))));
-}
-
-template <class S>
-std::vector<S> SolidPair<S>::gapsAcross(int ofOne, int ofOther) const {
-  const bool isSegment = ofOne < 0;
-  std::vector<S> gaps;
-  for (int k = 0; k < 3; ++k) {
-    if (k != ofOther) gaps.push_back(gap(other_.directions[detail::at(k)]));
-    if (!isSegment && k != ofOne) gaps.push_back(gap(oneDirections_[detail::at(k)]));
-  }
-  if (isSegment) gaps.push_back(gap(oneDirections_[0].cross(other_.directions[detail::at(ofOther)])));
-  return gaps;
+  return square(positive(gap(across))) + least * (S(1.0) - overlapAcross(ofOne, ofOther));
 }
 
 template <class S>
 S SolidPair<S>::overlapAcross(int ofOne, int ofOther) const {
+  const bool isSegment = ofOne < 0;
   S overlaps(1.0);
-  for (const S& gap : gapsAcross(ofOne, ofOther)) overlaps = overlaps * isNone(gap);
+  for (int k = 0; k < 3; ++k) {
+    if (k != ofOther) overlaps = overlaps * isNone(gap(other_.directions[detail::at(k)]));
+    if (!isSegment && k != ofOne) overlaps = overlaps * isNone(gap(oneDirections_[detail::at(k)]));
+  }
+  if (isSegment) overlaps = overlaps * isNone(gap(oneDirections_[0].cross(other_.directions[detail::at(ofOther)])));
   return overlaps;
-}
-
-/// A gap is no more than the distance, and a little less is below it: bounds of the distance stay above that, whatever
-/// they know of whether all gaps are closed.
-template <class S>
-S SolidPair<S>::squareOfGreatest(const std::vector<S>& gaps) {
-  using std::max;
-  constexpr double less = 1 - 0x1p-10;
-  S greatest = gaps.front();
-  for (const S& gap : gaps) greatest = max(greatest, gap);
-  return square(positive(S(S(less) * greatest)));
 }
 
 /// Of corners from the edges of a solid in whose axes they are.

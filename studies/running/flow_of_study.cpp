@@ -37,7 +37,7 @@ FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool
   flow.jobs = jobs;
   flow.cancelled = cancelled;
   flow.stateNames = study.mechanism.stateNames();
-  if (machine.isMotionGiven()) {
+  if (study.isMotionGiven()) {
     flow.stateNames = {"rest"};
     flow.longestStep = longestStepOf(study);
   }

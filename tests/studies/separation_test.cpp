@@ -2,10 +2,8 @@
 // positions and the nearest points change, and proved never to be less than a limit.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <array>
 #include <string>
-#include <tuple>
 
 #include "mechanics/assembly.hpp"
 #include "studies/running/run.hpp"
@@ -197,124 +195,6 @@ TEST_F(TwoArms, OfHullsAreHeldApart) {
   const Results results = runOf(study);
   EXPECT_EQ(results.comparison.verdict, Agreement::inside);
   EXPECT_LE(results.comparison.maximum, 1.2);  // where an edge, and then a face, is nearest
-}
-
-/// An arm that a drive turns by 60° in a plane, with these shapes besides, their numbers in mm; what is uncertain is
-/// how far out its own shape is.
-Results resultsTurned(const std::string& shapes, const std::string& share, const std::string& further) {
-  return run(readStudyText(R"toml([study]
-analysis = "inverse-dynamics"
-horizon = "1 s"
-output_step = "0.1 s"
-compare = ["interval", "stochastic"]
-[distribution]
-times = 0
-[stochastic]
-samples = 64
-[[mechanism.element]]
-type = "revolute"
-name = "turn"
-from = "inertial"
-to = "arm"
-axis = "z"
-[[mechanism.element]]
-type = "drive"
-name = "input"
-joint = "turn"
-position = "60 deg*t/(1 s)"
-[[mechanism.element]]
-type = "link"
-name = "reach"
-from = "arm"
-to = "hand"
-vector = ["reach.x", 0, 0]
-parameters = { x = "300 mm" }
-)toml" + shapes + "[[uncertain]]\nquantity = \"reach.x\"\ninterval = \"± " +
-                               share + "\"\n" + further,
-                           "s"));
-}
-
-constexpr const char* twoRods = R"([[mechanism.element]]
-type = "capsule"
-name = "hand_rod"
-at = "hand"
-length = "400 mm"
-radius = "20 mm"
-axis = "x"
-[[mechanism.element]]
-type = "capsule"
-name = "post"
-at = "inertial"
-length = "200 mm"
-radius = "20 mm"
-centre = ["250 mm", "200 mm", 0]
-[[mechanism.element]]
-type = "separation"
-name = "gap"
-from = "hand_rod"
-to = "post"
-)";
-
-constexpr const char* twoBoxes = R"([[mechanism.element]]
-type = "box"
-name = "hand_box"
-at = "hand"
-size = ["200 mm", "100 mm", "100 mm"]
-[[mechanism.element]]
-type = "box"
-name = "block"
-at = "inertial"
-size = ["200 mm", "100 mm", "100 mm"]
-centre = ["100 mm", "360 mm", 0]
-[[mechanism.element]]
-type = "separation"
-name = "gap"
-from = "hand_box"
-to = "block"
-)";
-
-constexpr const char* points = R"([[output]]
-quantity = "gap.to.x"
-[[output]]
-quantity = "gap.to.y"
-[[output]]
-quantity = "gap.from.x"
-[[output]]
-quantity = "gap.from.y"
-)";
-
-/// Axes of rods that cross have no direction from one to the other; their nearest points are on the rods all the same.
-TEST(ShapesThatOverlap, HaveNearestPointsOnThemselves) {
-  for (const auto& [shapes, x, y, wide, high] :
-       {std::tuple(twoRods, 0.25, 0.2, 0.02, 0.02), {twoBoxes, 0.1, 0.36, 0.1, 0.05}}) {
-    const Results results = resultsTurned(shapes, "1 %", points);
-    ASSERT_EQ(results.interval.reached, 1) << results.interval.why;
-    EXPECT_EQ(results.comparison.verdict, Agreement::inside);
-    constexpr double beyond = 1 + 0x1p-9;
-    for (const auto* bounds : {&results.interval.at, &results.interval.over})
-      for (std::size_t i = 0; i <= 10; ++i) {
-        if (bounds == &results.interval.over && i == 0) continue;
-        SCOPED_TRACE(i);
-        EXPECT_GE(bounds->lower(i, 0), x - beyond * wide);
-        EXPECT_LE(bounds->upper(i, 0), x + beyond * wide);
-        EXPECT_GE(bounds->lower(i, 1), y - beyond * high);
-        EXPECT_LE(bounds->upper(i, 1), y + beyond * high);
-        for (const std::size_t own : {2, 3})  // within what the arm reaches
-          EXPECT_LE(std::max(-bounds->lower(i, own), bounds->upper(i, own)), 0.75);
-      }
-  }
-}
-
-/// A box at the end of an arm turns past a block, whose corner is 25 mm away at the nearest, for all lengths within 10
-/// % of the arm's.
-TEST(ShapesThatOverlap, AreProvedApartWhereTheyAre) {
-  std::string far = twoBoxes;
-  far.replace(far.find("360 mm"), 6, "460 mm");
-  const Results results = resultsTurned(far, "10 %",
-                                        "[[output]]\nquantity = \"gap.distance\"\n[[requirement]]\nname = \"apart\"\n"
-                                        "always = \"gap.distance > 5 mm\"\n");
-  ASSERT_EQ(results.requirements.size(), 1U);
-  EXPECT_EQ(results.requirements[0].word, Decision::met);
 }
 
 }  // namespace
