@@ -296,6 +296,11 @@ class SummaryParts {
   void add(const std::string& sentence, std::size_t indent = 0) {
     if (!sentence.empty()) all.back().items.push_back(wrapped(sentence, indent, columns_));
   }
+  /// What is told only where all is.
+  void addBesides(const std::string& sentence, std::size_t indent, bool isAllTold) {
+    if (isAllTold) return add(sentence, indent);
+    if (!sentence.empty()) untold += wrapped(sentence, indent, columns_).size();
+  }
   /// Each line an item.
   void addLines(std::string_view text) {
     for (const std::string& line : linesOf(text)) {
@@ -315,6 +320,7 @@ class SummaryParts {
   void begin(std::size_t least) { all.push_back({{}, least}); }
 
   std::vector<SummaryPart> all;
+  std::size_t untold = 0;  ///< rows of what is told only where all is
 
  private:
   static std::vector<std::string> linesOf(std::string_view text) {
@@ -371,7 +377,7 @@ std::string fitted(const SummaryParts& parts, const SummaryStyle& style) {
   const std::vector<std::size_t> shown = itemsShown(parts.all, isWhole ? all : style.rows - 1);
   std::string text = textOf(parts.all, shown);
   if (isWhole) return text;
-  const auto left = static_cast<long long>(all) - std::ranges::count(text, '\n');
+  const auto left = static_cast<long long>(all + parts.untold) - std::ranges::count(text, '\n');
   return text + fmt::format("  {}: --verbose\n", countText(left, "more line"));
 }
 
@@ -389,9 +395,8 @@ void addRequirements(const Results& results, const Verdict& verdict, const Summa
     parts.add(fmt::format("{:<8}  {}{}{}", stateOf(results.requirements[r]), isNamed ? of.name + ": " : "",
                           sentences[r], shrinkSentence(results.requirements[r])),
               2);
-    if (!style.isVerbose) continue;
     const auto addAnswer = [&](const char* title, const std::string& text) {
-      if (!text.empty()) parts.add(fmt::format("{:<11} {}", title, text), 4);
+      if (!text.empty()) parts.addBesides(fmt::format("{:<11} {}", title, text), 4, style.isVerbose);
     };
     addAnswer("demanded", of.demand);
     addAnswer("guaranteed", of.guaranteed);

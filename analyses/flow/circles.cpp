@@ -416,4 +416,15 @@ CircleImage imageByCircles(const Program& g, double t, const Box& box, const std
   return image;
 }
 
+std::optional<CircleImage> imageUnlessCancelled(const Program& g, double t, const Box& box,
+                                                const std::vector<Box>& levels, int degree,
+                                                const std::atomic<bool>* cancelled,
+                                                const std::vector<int>& remainders) {
+  try {
+    return imageByCircles(g, t, box, levels, degree, cancelled, remainders);
+  } catch (const Cancelled&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace gamut

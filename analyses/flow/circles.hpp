@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "analyses/flow/models.hpp"
@@ -34,5 +35,9 @@ struct CircleImage {
 /// cost grows with the number of angles as with that of quantities, not with bisections. docs/flow.md, section 4.
 CircleImage imageByCircles(const Program& g, double t, const Box& box, const std::vector<Box>& levels, int degree,
                            const std::atomic<bool>* cancelled, const std::vector<int>& remainders);
+/// The same; none where it was cancelled before it was found.
+std::optional<CircleImage> imageUnlessCancelled(const Program& g, double t, const Box& box,
+                                                const std::vector<Box>& levels, int degree,
+                                                const std::atomic<bool>* cancelled, const std::vector<int>& remainders);
 
 }  // namespace gamut

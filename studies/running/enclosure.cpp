@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -92,10 +93,13 @@ class Encloser {
     cutCpu_ = tube.cutCpuSeconds();
     levelWork_ = tube.levelWork();
     enclosePlaces(run_, seen_, tube, places_);
-    if (far > 0) narrowByCircles(motion.g);
-    if (!isRough) return;
-    interval.tightness = std::nan("");
-    interval.shortfall.clear();
+    const bool isNarrowed = far == 0 || narrowByCircles(motion.g);
+    if (isRough) {
+      interval.tightness = std::nan("");
+      interval.shortfall.clear();
+    }
+    if (!isNarrowed && interval.shortfall.empty())
+      interval.shortfall = "what is known of angles that go far round was not used to the end: " + run_.watch.why();
   }
 
   /// For what circles tell more of.
@@ -110,8 +114,8 @@ class Encloser {
   }
 
   /// A motion that is given is an image at each time, and with time as one quantity more from each to the next: where
-  /// angles go far round, more is known of that.
-  void narrowByCircles(const Program& g) {
+  /// angles go far round, more is known of that. False where the run is told to end before all of it is used.
+  bool narrowByCircles(const Program& g) {
     const std::size_t rows = found.reachedTimes, outputs = study_.outputs.size();
     const Program overTime = withTimeGiven(g);
     const auto narrow = [&](std::size_t i, Bounds& bounds, const std::vector<Interval>& by) {
@@ -127,19 +131,25 @@ class Encloser {
       return row;
     };
     const auto imageOf = [&](const Program& program, double t, const Box& box, const std::vector<Box>& levels) {
-      return imageByCircles(program, t, box, levels, study_.flow.degree, run_.watch.stop(), run_.machine.remainders);
+      return imageUnlessCancelled(program, t, box, levels, study_.flow.degree, run_.watch.stop(),
+                                  run_.machine.remainders);
     };
+    bool isWhole = true;
     for (std::size_t i = 0; i < rows; ++i) {
-      const CircleImage image = imageOf(g, study_.times[i], run_.machine.box, run_.machine.levels);
-      if (image.ranges.empty()) continue;
-      narrow(i, interval.at, image.ranges[0]);
-      for (std::size_t level = 0; level < cuts_.size(); ++level) narrow(i, cuts_[level], image.ranges[level + 1]);
-      if (i < found.extremes.size()) found.extremes[i] = image.extremes[0];
-      found.levelExtremes.insert(found.levelExtremes.end(), image.extremes.begin() + 1, image.extremes.end());
+      const std::optional<CircleImage> image = imageOf(g, study_.times[i], run_.machine.box, run_.machine.levels);
+      isWhole = image.has_value();
+      if (!isWhole) break;
+      if (image->ranges.empty()) continue;
+      narrow(i, interval.at, image->ranges[0]);
+      for (std::size_t level = 0; level < cuts_.size(); ++level) narrow(i, cuts_[level], image->ranges[level + 1]);
+      if (i < found.extremes.size()) found.extremes[i] = image->extremes[0];
+      found.levelExtremes.insert(found.levelExtremes.end(), image->extremes.begin() + 1, image->extremes.end());
       Box box = run_.machine.box;
       box.emplace_back(study_.times[i > 0 ? i - 1 : 0], study_.times[i]);
-      if (const CircleImage over = imageOf(overTime, 0, box, {}); !over.ranges.empty())
-        narrow(i, interval.over, over.ranges[0]);
+      const std::optional<CircleImage> over = imageOf(overTime, 0, box, {});
+      isWhole = over.has_value();
+      if (!isWhole) break;
+      if (!over->ranges.empty()) narrow(i, interval.over, over->ranges[0]);
     }
     // What holds over an interval holds at its ends, and what holds at a level at those above it.
     for (std::size_t i = 0; i < rows; ++i) {
@@ -148,6 +158,7 @@ class Encloser {
       for (std::size_t level = 0; level < cuts_.size(); ++level)
         narrow(i, cuts_[level], rowOfBounds(i, level == 0 ? interval.at : cuts_[level - 1]));
     }
+    return isWhole;
   }
 
   /// With time as a last parameter.

@@ -83,7 +83,7 @@ TEST(ComparisonPage, BeginsWithHowManyRequirementsAreBetterOrWorse) {
   a.requirements.resize(1, a.requirements.front());
   a.requirements.front().word = Decision::met;
   const auto leadOf = [](const Results& from, const Results& to) {
-    const std::string page = pageOf(from, to), mark = "<p class=\"lead\">";
+    const std::string page = pageOf(from, to), mark = "<h2 class=\"lead\">";
     const std::size_t begin = page.find(mark) + mark.size();
     return page.substr(begin, page.find('<', begin) - begin);
   };

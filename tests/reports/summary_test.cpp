@@ -515,7 +515,9 @@ TEST(RunSummary, SaysAllWhereThereIsRoom) {
   roomy.rows = rowsOf(ranSummary(results, roomy));
   EXPECT_THAT(ranSummary(results, roomy), Not(HasSubstr("--verbose")));
   --roomy.rows;
-  EXPECT_THAT(ranSummary(results, roomy), HasSubstr("  2 more lines: --verbose\n"));
+  EXPECT_THAT(
+      ranSummary(results, roomy),
+      HasSubstr(fmt::format("  {} more lines: --verbose\n", rowsOf(ranSummary(results, verbose)) - roomy.rows + 1)));
   for (const char* answer : {"    demanded    ", "    guaranteed  ", "    probable    ", "    possible    "}) {
     EXPECT_THAT(ranSummary(results, verbose), HasSubstr(answer));
     EXPECT_THAT(ranSummary(results), Not(HasSubstr(answer)));
@@ -530,7 +532,6 @@ TEST(RunSummary, BeginsWithTheLeadAndTheWorstRequirementAndKeepsTheVerdict) {
   EXPECT_THAT(text, ::testing::StartsWith("Lead.\n  violated  requirement "));
   EXPECT_THAT(text, HasSubstr("\n" + sentence + "\n"));
   EXPECT_LT(text.find("  violated  requirement 1: "), text.find(sentence));
-  EXPECT_THAT(text, HasSubstr("\n  output"));  // of tables at least a part
 }
 
 TEST(RunSummary, SaysOfEachRequirementWhatItsCardDoes) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -70,6 +71,14 @@ TEST(CircleImage, IsThatOfDiscsInARowHoweverManyThereAre) {
 }
 
 /// Directions that are known to a radian: sectors of discs.
+TEST(CircleImage, IsNoneOnceItIsCancelled) {
+  std::atomic<bool> isCancelled = false;
+  const auto found = [&] { return imageUnlessCancelled(plays(3), 0, boxOfPlays(3, 1), {}, 6, &isCancelled, {}); };
+  EXPECT_TRUE(found().has_value());
+  isCancelled = true;
+  EXPECT_FALSE(found().has_value());
+}
+
 TEST(CircleImage, IsThatOfSectorsInARow) {
   constexpr int count = 10;
   Box box = boxOfPlays(count, 1);
