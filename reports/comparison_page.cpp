@@ -161,7 +161,6 @@ class ComparisonPage {
   }
 
   // ---- What leads
-  // -----------------------------------------------------------------------------------------------------
 
   Verdicts trendOfRequirement(std::size_t k) const {
     const Match& match = difference_.shared.requirements[k];
@@ -247,7 +246,6 @@ class ComparisonPage {
   }
 
   // ---- Tables
-  // ---------------------------------------------------------------------------------------------------------
 
   static std::string answerOf(const RequirementResult& requirement, const std::string& sentence) {
     return fmt::format("{}. {}{}", stateOf(requirement), sentence, shrinkSentence(requirement));
@@ -351,7 +349,6 @@ class ComparisonPage {
   }
 
   // ---- Figures
-  // --------------------------------------------------------------------------------------------------------
 
   struct Outline {
     const Bounds* bounds = nullptr;

@@ -216,7 +216,7 @@ std::optional<MeshHull> hullOfMesh(const std::string& text, const std::string& n
   MeshHull hull = fewOf(points);
   if (isFlat(hull)) throw std::invalid_argument("has points that lie in one plane");
   if (isExact) return hull;
-  // Decimals are within half a unit in the last place of their doubles, in each of three coordinates.
+  // Decimals are within half a unit in the last place of their doubles in each of three coordinates: 2⁻⁵³√3 < 2⁻⁵².
   double largest = 0;
   for (const MeshPoint& point : points)
     for (const double coordinate : point) largest = std::max(largest, std::abs(coordinate));

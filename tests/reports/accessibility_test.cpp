@@ -11,7 +11,7 @@
 #include "reports/report.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
-#include "tests/reports/chromium.hpp"
+#include "tests/reports/in_chromium.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace gamut::accessibility {
@@ -27,20 +27,8 @@ std::string textOf(const std::string& path) {
   return text.str();
 }
 
-class Accessibility : public ::testing::Test {
+class Accessibility : public InChromium {
  protected:
-  static void SetUpTestSuite() {
-    if (Chromium::isInstalled()) chromium = std::make_unique<Chromium>();
-  }
-  static void TearDownTestSuite() { chromium.reset(); }
-
-  void SetUp() override {
-    if (chromium) return;
-    const char* ci = std::getenv("CI");
-    ASSERT_FALSE(ci != nullptr && std::string(ci) == "true") << "chromium is not installed";
-    GTEST_SKIP() << "chromium is not installed";
-  }
-
   /// A line for each rule that the page breaks, with the first element that does; last, how many rules were passed.
   /// `before`: what a script does to the page first.
   static std::string broken(const std::string& page, const Chromium::Screen& screen, const std::string& before = "") {
@@ -72,8 +60,6 @@ class Accessibility : public ::testing::Test {
   }
 
  private:
-  static inline std::unique_ptr<Chromium> chromium;
-
   TemporaryFolder folder_;
 };
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "reports/report.hpp"
-#include "tests/reports/chromium.hpp"
 #include "tests/reports/example_results.hpp"
+#include "tests/reports/in_chromium.hpp"
 #include "tests/reports/page_text.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
@@ -27,21 +27,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class Browser : public ::testing::Test {
+class Browser : public InChromium {
  protected:
-  /// One for all tests: to start it takes longer than what is asked of it.
-  static void SetUpTestSuite() {
-    if (Chromium::isInstalled()) chromium = std::make_unique<Chromium>();
-  }
-  static void TearDownTestSuite() { chromium.reset(); }
-
-  void SetUp() override {
-    if (chromium) return;
-    const char* ci = std::getenv("CI");
-    ASSERT_FALSE(ci != nullptr && std::string(ci) == "true") << "chromium is not installed";
-    GTEST_SKIP() << "chromium is not installed";
-  }
-
   /// What becomes of the page of these results once its scripts have run and its plots are drawn.
   /// `doing`: what a reader does then, as the body of an asynchronous function. What it notes is waited for; after
   /// `await laidOut()` plots have followed what it changed.
@@ -66,8 +53,6 @@ class Browser : public ::testing::Test {
   }
 
  private:
-  static inline std::unique_ptr<Chromium> chromium;
-
   TemporaryFolder folder_;
 };
 
