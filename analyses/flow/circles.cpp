@@ -159,7 +159,7 @@ class CircleFinder {
   CircleFinder(const Circles& circles, double t, const Embedding& embedding, int degree,
                const std::atomic<bool>* cancelled)
       : embedding_(embedding),
-        monomials_(std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), degree)),
+        monomials_(Monomials::of(std::vector<int>(at(embedding.symbols), 1), degree)),
         outputs_(circles.g, monomials_, monomials_, {}, cancelled),
         ranges_(monomials_),
         first_(embedding.symbols - 2 * static_cast<int>(circles.all.size())) {

@@ -75,8 +75,6 @@ OutputExtremes extremesOf(const PolynomialRange& range, const Box& box, const Em
   return {range.least().value, range.greatest().value, valuesAt(range.least().xi), valuesAt(range.greatest().xi)};
 }
 
-namespace {}  // namespace
-
 double countOfMonomials(const std::vector<int>& weights, int degree) {
   std::vector<double> count(degree + 1, 0.0);  // of each grade
   count[0] = 1;

@@ -47,7 +47,7 @@ struct ImagePart {
 std::shared_ptr<const Monomials> monomialsOf(int symbols, int degree) {
   std::vector<int> weights(symbols, 1);
   const int chosen = degree >= 1 && symbols > 0 ? degree : degreeLadder(weights).back();
-  return std::make_shared<const Monomials>(std::move(weights), chosen);
+  return Monomials::of(std::move(weights), chosen);
 }
 
 /// Throws Cancelled.
@@ -413,7 +413,7 @@ Image imageOf(const CircleImage& circles, const Embedding& embedding, double t, 
   auto snapshot = std::make_shared<FlowSnapshot>();
   snapshot->time = t;
   snapshot->part = {std::vector<double>(weights.size(), 0.0), std::vector<double>(weights.size(), 1.0)};
-  const auto monomials = std::make_shared<const Monomials>(weights, degree);
+  const auto monomials = Monomials::of(weights, degree);
   snapshot->monomials = monomials;
   for (const int o : modelled) {
     double radius = circles.radius[o];

@@ -199,7 +199,7 @@ std::shared_ptr<const FlowModels> PolygonTube::modelsBeyond(const FlowQuestion& 
   auto models = std::make_shared<FlowModels>(*known);
   const std::size_t rows = tube.states_.size();
   const FlowPart whole{std::vector<double>(models->symbols, 0.0), std::vector<double>(models->symbols, 1.0)};
-  const auto monomials = std::make_shared<const Monomials>(std::vector<int>(models->symbols, 1), 1);
+  const auto monomials = Monomials::of(std::vector<int>(models->symbols, 1), 1);
   const auto snapshotAt = [&](std::size_t row) {
     auto snapshot = std::make_shared<FlowSnapshot>();
     snapshot->time = tube.times_[row];

@@ -117,7 +117,7 @@ class Weighing {
   void look(const FlowQuestion& question, const Box& box, bool weighs) {
     const Embedding embedding = question.embed(box);
     const int n = question.motion.states(), degree = weighs && embedding.symbols <= mostOfSecondDegree ? 2 : 1;
-    const auto monomials = std::make_shared<const Monomials>(std::vector<int>(embedding.symbols, 1), degree);
+    const auto monomials = Monomials::of(std::vector<int>(embedding.symbols, 1), degree);
     std::vector<int> inputs;
     for (const VaryingParameter& input : question.options.varying) inputs.push_back(input.parameter);
     FlowStepper stepper(question.differentiated, monomials, 0, roughOrder, roughTolerance,

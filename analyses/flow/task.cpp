@@ -28,8 +28,8 @@ std::shared_ptr<const Monomials> expandedMonomials(int symbols, int n) {
   if (symbols + n > 12) return nullptr;
   std::vector<int> weights(symbols, 1);
   weights.resize(symbols + n, weight);
-  auto monomials = std::make_shared<const Monomials>(weights, degree);
-  return monomials->count() <= 300 ? monomials : nullptr;
+  constexpr double most = 300;
+  return countOfMonomials(weights, degree) <= most ? Monomials::of(std::move(weights), degree) : nullptr;
 }
 
 std::vector<int> parametersOf(const std::vector<VaryingParameter>& inputs) {
@@ -118,10 +118,9 @@ void FlowTask::setLayouts(const FlowRound& round) {
     std::vector<int> capped;  // every symbol keeps its first power
     for (const int weight : weights) capped.push_back(std::min(weight, degree));
     const int rough = round.tighter == 1 && active > 4 ? 2 : degree, frame = automaticFrameDegree(active, degree);
-    layouts.push_back({std::make_shared<const Monomials>(capped, degree),
-                       options.frameDegree >= 0 ? std::min(options.frameDegree, degree)
-                       : round.isRich           ? frameDegreeOfFixed(weights, degree)
-                                                : std::min(rough, frame)});
+    layouts.push_back({Monomials::of(capped, degree), options.frameDegree >= 0 ? std::min(options.frameDegree, degree)
+                                                      : round.isRich           ? frameDegreeOfFixed(weights, degree)
+                                                                               : std::min(rough, frame)});
   }
   degrees = layouts.size();
   if (auto expanded = options.degree < 0 ? expandedMonomials(embedding.symbols, motion.states()) : nullptr) {

@@ -97,7 +97,7 @@ class Projection {
     if (layout.own) return layout;
     weights.clear();
     for (const std::size_t l : kept_) weights.push_back(source->weight(static_cast<int>(l)));
-    layout.own = std::make_shared<Monomials>(std::move(weights), source->degree());
+    layout.own = Monomials::of(std::move(weights), source->degree());
     int next = 0;
     for (int g = 0; g < source->count(); ++g) {
       bool isKept = true;

@@ -2,8 +2,10 @@
 #include "analyses/flow/series/monomials.hpp"
 
 #include <functional>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace gamut {
 
@@ -66,6 +68,26 @@ Monomials::Monomials(std::vector<int> weights, int degree) : weight_(std::move(w
          q < static_cast<std::size_t>(first_[static_cast<std::size_t>(g) + 1]); ++q)
       products_[firstProduct_[pairs_[q].a] + static_cast<std::size_t>(pairs_[q].b)] = static_cast<std::uint16_t>(g);
   for (int l = 0; l < symbols(); ++l) linear_.push_back(shifted(0, l, 1));
+}
+
+std::shared_ptr<const Monomials> Monomials::of(std::vector<int> weights, int degree) {
+  constexpr std::size_t mostPairs = 1'000'000;  // kept, some 10 MB
+  static std::mutex mutex;
+  static std::map<std::pair<std::vector<int>, int>, std::shared_ptr<const Monomials>> kept;
+  static std::size_t pairs = 0;
+  std::pair key(std::move(weights), degree);
+  {
+    const std::scoped_lock lock(mutex);
+    if (const auto found = kept.find(key); found != kept.end()) return found->second;
+  }
+  auto made = std::make_shared<const Monomials>(key.first, degree);
+  const std::scoped_lock lock(mutex);
+  if (pairs + made->pairs().size() > mostPairs) {
+    kept.clear();
+    pairs = 0;
+  }
+  if (made->pairs().size() <= mostPairs && kept.emplace(std::move(key), made).second) pairs += made->pairs().size();
+  return made;
 }
 
 int Monomials::shifted(int g, int symbol, int by) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace gamut {
@@ -20,6 +21,8 @@ class Monomials {
 
   /// One positive weight a symbol; degree ≥ 0. Throws std::invalid_argument beyond 20000 monomials.
   Monomials(std::vector<int> weights, int degree);
+  /// The same, enumerated once for all who ask for them: their tables take longer than many a step. Of any thread.
+  static std::shared_ptr<const Monomials> of(std::vector<int> weights, int degree);
 
   int symbols() const { return static_cast<int>(weight_.size()); }
   int degree() const { return degree_; }
