@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +16,7 @@
 #include "mechanics/description/refusal.hpp"
 #include "mechanics/equations/loop_rows.hpp"
 #include "mechanics/open_loops.hpp"
+#include "scalars/algebra/decompositions.hpp"
 
 namespace gamut {
 namespace {

@@ -1,10 +1,10 @@
 #include "mechanics/rest_algebra.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "mechanics/description/refusal.hpp"
+#include "scalars/algebra/decompositions.hpp"
 
 namespace gamut {
 

@@ -1,10 +1,10 @@
 #include "mechanics/rest_damped_mode.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "mechanics/rest_algebra.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/algebra/linear_system.hpp"
 
 namespace gamut {
@@ -42,14 +42,26 @@ std::vector<std::complex<double>> modesAmong(const std::vector<std::complex<doub
   return modes;
 }
 
+namespace {
+
+/// The unit vector v with the least |m v|, by the decomposition of a real matrix: m v by the parts of v.
+Eigen::VectorXcd leastMoved(const Eigen::MatrixXcd& m) {
+  const Eigen::Index n = m.rows();
+  Matrix parts(2 * n, 2 * n);
+  parts << m.real(), -m.imag(), m.imag(), m.real();
+  const Vector v = Eigen::JacobiSVD<Matrix>(parts, Eigen::ComputeFullV).matrixV().col(2 * n - 1);
+  return v.head(n) + std::complex<double>(0, 1) * v.tail(n);
+}
+
+}  // namespace
+
 DampedMode::DampedMode(const RestRows& of, const LinearRows<double>& at, int its, std::complex<double> s)
     : number(its) {
   const Eigen::MatrixXcd pencil = squareMatrix(at.byPosition, of.size).cast<std::complex<double>>() +
                                   s * squareMatrix(at.byRate, of.size) +
                                   s * s * squareMatrix(at.byAcceleration, of.size);
   const Vector row = pencil.cwiseAbs().rowwise().maxCoeff().unaryExpr([](double x) { return x > 0 ? 1 / x : 1.0; });
-  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(row.asDiagonal() * pencil, Eigen::ComputeFullV);
-  const Eigen::VectorXcd shape = svd.matrixV().col(of.size - 1);
+  const Eigen::VectorXcd shape = leastMoved(row.asDiagonal() * pencil);
   const int told = of.coordinates + of.ownStates;
   const double length = shape.head(told).squaredNorm();
   for (int i = 0; i < of.size; ++i) nominal.push_back(shape[i].real());

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "mechanics/description/refusal.hpp"
 #include "mechanics/rest_algebra.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/algebra/linear_system.hpp"
 
 namespace gamut {

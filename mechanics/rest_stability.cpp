@@ -1,10 +1,10 @@
 #include "mechanics/rest_stability.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/algebra/verified_algebra.hpp"
 #include "scalars/eigen.hpp"
 

@@ -2,7 +2,6 @@
 // with ρ Rayleigh's quotient: each step knows one power of the parameters' deviations more (Rayleigh & Schrödinger).
 #include "mechanics/rest_vibration.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "mechanics/rest_algebra.hpp"
 #include "mechanics/rest_position.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/algebra/linear_system.hpp"
 #include "scalars/algebra/triangle.hpp"
 #include "scalars/evaluation/evaluate.hpp"

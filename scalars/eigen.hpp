@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <type_traits>
 
 namespace gamut {
 
@@ -81,5 +82,18 @@ GAMUT_EIGEN_SCALAR(Samples)
 GAMUT_EIGEN_SCALAR(Fuzzy)
 GAMUT_EIGEN_SCALAR(Recorded)
 #undef GAMUT_EIGEN_SCALAR
+
+/// Products of matrices of intervals are their entries' sums: blocks laid out for machine numbers' caches gain nothing
+/// and take seconds to compile.
+template <class Lhs, class Rhs>
+requires std::is_same_v<typename Lhs::Scalar, gamut::Interval>
+struct internal::generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemmProduct>
+    : internal::generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, CoeffBasedProductMode> {
+};
+template <class Lhs, class Rhs>
+requires std::is_same_v<typename Lhs::Scalar, gamut::Interval>
+struct internal::generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemvProduct>
+    : internal::generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, CoeffBasedProductMode> {
+};
 
 }  // namespace Eigen

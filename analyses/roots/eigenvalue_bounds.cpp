@@ -3,7 +3,6 @@
 // below zero, and ε what rounding and the discs' radii leave.
 #include "analyses/roots/eigenvalue_bounds.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +14,7 @@
 
 #include "analyses/flow/flow.hpp"
 #include "analyses/roots/root_family.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/algebra/linear_system.hpp"
 #include "scalars/algebra/triangle.hpp"
 #include "scalars/algebra/verified_algebra.hpp"

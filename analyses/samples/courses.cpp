@@ -2,10 +2,10 @@
 // short that neighbours have nothing in common.
 #include "analyses/samples/courses.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/index.hpp"

@@ -2,7 +2,6 @@
 // formula that damps what is stiff. A switch that is off by a small part of a turn costs the square of that.
 #include "analyses/samples/worst_courses.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/sides.hpp"

@@ -1,8 +1,7 @@
 // By unit accelerations, as the equations of motion are found.
 #include "mechanics/equations/loop_rows.hpp"
+#include "scalars/algebra/decompositions.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <optional>
 #include <utility>

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -22,6 +21,7 @@
 #include <utility>
 
 #include "mechanics/polyhedron.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {

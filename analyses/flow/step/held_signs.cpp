@@ -1,10 +1,10 @@
 #include "analyses/flow/step/held_signs.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 #include "scalars/program/sides.hpp"

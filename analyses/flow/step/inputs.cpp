@@ -3,11 +3,11 @@
 // J̄ and B̄ means of the derivatives between (x̃, centre) and (x, w). ĝ makes B̃ - Ψ̃ĝ vanish in the middle of its part.
 #include "analyses/flow/step/inputs.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "analyses/flow/series/error_bounds.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {

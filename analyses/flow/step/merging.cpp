@@ -1,5 +1,4 @@
 // Fewer generators in place of many. docs/flow.md, section 3.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/flow/step/set.hpp"
 #include "analyses/work.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {

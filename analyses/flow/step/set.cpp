@@ -1,7 +1,6 @@
 // Rewriting a set: other degrees, symbols for its remainder.
 #include "analyses/flow/step/set.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "analyses/flow/series/column_kernels.hpp"
 #include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/work.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {

@@ -1,6 +1,5 @@
 // A certified step at any of its times, between two of them, and the set at its end. Derivations: docs/flow.md,
 // sections 3 and 5.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/flow/step/step.hpp"
 #include "analyses/work.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/elementary/double_double.hpp"
 #include "scalars/index.hpp"
 

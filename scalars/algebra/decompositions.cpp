@@ -1,0 +1,3 @@
+#include "scalars/algebra/decompositions.hpp"
+
+GAMUT_DECOMPOSITIONS()
