@@ -17,7 +17,7 @@ inline constexpr const char* exitCodesText =
     "  3  an analysis ended before its horizon, was interrupted or reached a limit of time or memory, a bound is\n"
     "     infinite, a sample differs from itself by other equations ([witness]) by more than errors explain, or\n"
     "     `gamut check` found nothing to compare; with --requirements also: one is neither proved nor refuted; what\n"
-    "     was proved is kept and reported. Any command that was interrupted\n"
+    "     was proved is kept and reported. Any command that was interrupted, but view\n"
     "  4  an internal failure, or something could not be written; results whose page could not be drawn are kept";
 
 /// Throws std::invalid_argument for a verdict whose word has no exit code.

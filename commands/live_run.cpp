@@ -5,11 +5,13 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -198,7 +200,13 @@ void LiveRun::listen() {
   constexpr std::size_t most = std::size_t{1} << 30;  // bytes of one page
   bool goesOn = true;
   while (goesOn && isReadable(run_->pipe())) {
-    goesOn = run_->read(most);
+    try {
+      goesOn = run_->read(most);
+    } catch (const std::length_error&) {
+      run_.reset();
+      return fail(
+          fmt::format("{}: a page is greater than 1 GiB; expected fewer outputs or output times", arguments_.study));
+    }
     for (Frame frame = firstFrame(run_->soFar()); frame.size > 0; frame = firstFrame(run_->soFar())) {
       take(frame.kind, std::string(frame.text));
       run_->drop(frame.size);
@@ -239,9 +247,10 @@ void LiveRun::fail(const std::string& why) {
 }
 
 std::string LiveRun::state() const {
-  return nlohmann::ordered_json{{"page", number_}, {"whole", isWhole_},     {"running", run_ != nullptr},
-                                {"task", task_},   {"fraction", fraction_}, {"fault", fault_},
-                                {"notes", notes_}}
+  const auto begun = std::chrono::duration_cast<std::chrono::milliseconds>(begun_.time_since_epoch());
+  return nlohmann::ordered_json{
+      {"begun", begun.count()}, {"page", number_},       {"whole", isWhole_}, {"running", run_ != nullptr},
+      {"task", task_},          {"fraction", fraction_}, {"fault", fault_},   {"notes", notes_}}
       .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -31,7 +31,8 @@ class LiveRun {
 
   /// The page of the last run that came to its end, or, before there is one, of what is known so far; null before that.
   std::shared_ptr<const std::string> page() const { return page_; }
-  /// What is done, as JSON: number of the page, whether it is whole, task, fraction, fault and notes.
+  /// What is done, as JSON: when all this was begun (pages are numbered from then on), number of the page, whether it
+  /// is whole, task, fraction, fault and notes.
   std::string state() const;
   /// What there is to be told of since this was asked for the last time, a line each, and whether it is a fault.
   struct News {
@@ -47,6 +48,7 @@ class LiveRun {
   void fail(const std::string& why);
 
   const LiveArguments arguments_;
+  const std::chrono::system_clock::time_point begun_ = std::chrono::system_clock::now();
   WatchedFiles files_;
   std::unique_ptr<ChildProcess> run_;
   std::shared_ptr<const std::string> page_;

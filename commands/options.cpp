@@ -41,6 +41,10 @@ void addStudy(CLI::App& command, std::string& path) {
   addInput(command, path, "study", "Study file (TOML, or JSON); - for standard input", "STUDY.toml");
 }
 
+void addWatchedStudy(CLI::App& command, std::string& path) {
+  addInput(command, path, "study", "Study file (TOML, or JSON)", "STUDY.toml");
+}
+
 void addResults(CLI::App& command, std::string& path) {
   addInput(command, path, "results", "Results file", "RESULTS.h5");
 }

@@ -18,6 +18,8 @@ class UsageError : public std::runtime_error {
 
 /// The argument STUDY.toml.
 void addStudy(CLI::App& command, std::string& path);
+/// A file alone, as standard input cannot be watched.
+void addWatchedStudy(CLI::App& command, std::string& path);
 /// The argument RESULTS.h5.
 void addResults(CLI::App& command, std::string& path);
 

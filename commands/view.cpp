@@ -81,7 +81,7 @@ ExitCode view(const ViewArguments& arguments) {
 
 Action view(CLI::App& command) {
   const auto arguments = std::make_shared<ViewArguments>();
-  addStudy(command, arguments->study);
+  addWatchedStudy(command, arguments->study);
   command.add_option("--port", arguments->port, "Port of the address, 1 to 65535; otherwise one that is free")
       ->check(wholeNumber(1, 65535))
       ->type_name("N");

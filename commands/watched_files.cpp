@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -19,10 +20,21 @@ namespace fs = std::filesystem;
 constexpr std::size_t mostText = 4 << 20;  // bytes of a study that are looked through
 constexpr std::size_t mostFiles = 64;
 
-/// By their endings: descriptions of robots, tables.
-bool mayBeFile(std::string_view text) {
-  constexpr std::string_view ends[] = {".urdf", ".xml", ".mjcf", ".sdf", ".world", ".csv", ".txt", ".dat", ".tsv"};
+bool endsWithAny(std::string_view text, std::initializer_list<std::string_view> ends) {
   return text.size() < 1024 && std::ranges::any_of(ends, [&](std::string_view end) { return text.ends_with(end); });
+}
+bool mayBeRobot(std::string_view text) { return endsWithAny(text, {".urdf", ".xml", ".mjcf", ".sdf", ".world"}); }
+bool mayBeFile(std::string_view text) {
+  return mayBeRobot(text) || endsWithAny(text, {".csv", ".txt", ".dat", ".tsv", ".stl", ".STL", ".obj", ".OBJ"});
+}
+
+/// A mesh "package://arm/mesh.stl" is looked for beside the robot.
+std::string withoutScheme(const std::string& name) {
+  constexpr std::string_view file = "file://", package = "package://";
+  if (name.starts_with(file)) return name.substr(file.size());
+  if (!name.starts_with(package)) return name;
+  const std::size_t slash = name.find('/', package.size());
+  return slash == std::string::npos ? std::string() : name.substr(slash + 1);
 }
 
 std::vector<std::string> namedIn(const std::string& text) {
@@ -62,10 +74,21 @@ void WatchedFiles::nameFiles() {
   std::ifstream file(study_, std::ios::binary);
   if (!file && !files_.empty()) return;
   files_.assign(1, study_);
+  constexpr int deepest = 3;  // a robot that includes another, with meshes
+  nameFilesIn(study_, deepest);
+}
+
+void WatchedFiles::nameFilesIn(const std::string& path, int deepest) {
+  std::ifstream file(path, std::ios::binary);
   std::string text(mostText, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  for (const std::string& name : namedIn(text)) files_.push_back((fs::path(study_).parent_path() / name).string());
+  for (const std::string& name : namedIn(text)) {
+    const std::string named = (fs::path(path).parent_path() / withoutScheme(name)).string();
+    if (files_.size() > mostFiles || std::ranges::find(files_, named) != files_.end()) continue;
+    files_.push_back(named);
+    if (deepest > 1 && mayBeRobot(named)) nameFilesIn(named, deepest - 1);
+  }
 }
 
 WatchedFiles::Look WatchedFiles::lookAt(const std::string& path) {

@@ -1,4 +1,5 @@
-// A study's file, and those that it names, as far as they are there: whether somebody has saved one of them.
+// A study's file, and those that it names, robots with what these name, as far as they are there: whether somebody has
+// saved one of them.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +26,7 @@ class WatchedFiles {
   static Look lookAt(const std::string& path);
   std::vector<Look> looks() const;
   void nameFiles();
+  void nameFilesIn(const std::string& path, int deepest);
 
   const std::string study_;
   std::vector<std::string> files_;  // the study first

@@ -148,11 +148,22 @@ class ComparisonPage {
     return html;
   }
 
+  /// Widths of motions that are known for other spans are no match.
+  bool isOfOneSpan() const {
+    return a_.horizon == b_.horizon && a_.interval.reached == b_.interval.reached &&
+           a_.stochastic.reached == b_.stochastic.reached;
+  }
+  static std::string spanOf(const Results& results) {
+    if (!results.interval.present) return fmt::format("samples until {}", timeText(results.stochastic.reached));
+    return fmt::format("guaranteed until {}", timeText(results.interval.reached));
+  }
+
   OutputBeside beside(const Match& match) const {
     OutputBeside output{a_.outputs[match.first].name,
                         a_.outputs[match.first].unit,
                         {bestMotionRange(a_, match.first), bestMotionRange(b_, match.second)},
                         {probableSpread(a_, match.first), probableSpread(b_, match.second)}};
+    if (!isOfOneSpan()) return output;
     const double size = std::fmax(motionSize(a_, match.first), motionSize(b_, match.second));
     if (output.range.first && output.range.second && output.range.first->source == output.range.second->source)
       output.wider = ratioOf(output.range.first->width, output.range.second->width, size);
@@ -188,16 +199,23 @@ class ComparisonPage {
     std::vector<std::string> words;
     for (const auto& [times, name] : found)
       if (words.size() < most)
-        words.push_back(fmt::format("{} ({} {})", name, numberText(isUp ? times : 1 / times, 3), "times"));
+        words.push_back(fmt::format("{} ({} times)", name, numberText(isUp ? times : 1 / times, 3)));
     if (found.size() > most) words.push_back(fmt::format("{} more", found.size() - most));
     return fmt::format("{}", fmt::join(words, ", "));
   }
 
   std::string leadText() const {
-    const auto better = requirementsOf(Trend::better).size(), worse = requirementsOf(Trend::worse).size(),
-               all = difference_.shared.requirements.size();
+    const auto other = requirementsOf(Trend::unknown).size(), all = difference_.shared.requirements.size() - other;
     if (difference_.word == Difference::Word::error) return comparisonSentence(difference_);
-    if (all == 0) return "Neither has requirements in common with the other; their outputs are compared.";
+    if (all == 0 && other == 0) return "Neither has requirements in common with the other; their outputs are compared.";
+    if (other == 0) return leadOf(all);
+    const std::string names = other == 1 ? "One requirement asks" : fmt::format("{} requirements ask", other);
+    return (all == 0 ? "" : leadOf(all) + " ") + names + " something else in B, which is not compared.";
+  }
+
+  /// Of so many requirements that ask the same.
+  std::string leadOf(std::size_t all) const {
+    const auto better = requirementsOf(Trend::better).size(), worse = requirementsOf(Trend::worse).size();
     const bool isAnyBetter = better > 0, isAnyWorse = worse > 0;
     const char* how = isAnyBetter ? "better" : isAnyWorse ? "worse" : "neither better nor worse";
     if (all == 1) return fmt::format("The requirement that both have is {} in B.", how);
@@ -221,13 +239,21 @@ class ComparisonPage {
     add("met", "guaranteed, narrower:", changed(wider, false));
     add("violated", "probable (5 to 95 %), wider:", changed(likelier, true));
     add("met", "probable (5 to 95 %), narrower:", changed(likelier, false));
+    if (!isOfOneSpan()) {
+      add("open", "known for other spans:",
+          fmt::format("{} in A, {} in B; neither widths nor costs are compared", spanOf(a_), spanOf(b_)));
+      return changesHtml(html);
+    }
     const double cpu = difference_.changes.cpu.second / difference_.changes.cpu.first;
     constexpr double telling = 1.2;
     if (cpu > telling || cpu < 1 / telling)
       add("open", cpu > 1 ? "slower to compute:" : "faster to compute:",
           fmt::format("{} instead of {}", cpuText(difference_.changes.cpu.second),
                       cpuText(difference_.changes.cpu.first)));
-    return html.empty() ? "" : "<ul class=\"changes\" aria-label=\"What changed from A to B\">\n" + html + "</ul>\n";
+    return changesHtml(html);
+  }
+  static std::string changesHtml(const std::string& items) {
+    return items.empty() ? "" : "<ul class=\"changes\" aria-label=\"What changed from A to B\">\n" + items + "</ul>\n";
   }
 
   std::string firstHtml() const {
@@ -308,6 +334,12 @@ class ComparisonPage {
       add("uncertain: " + u.name, quantityText(a_, u.name), quantityText(b_, u.name));
     for (const UncertainInfo& u : b_.uncertain)
       if (quantityText(a_, u.name).empty()) add("uncertain: " + u.name, "", quantityText(b_, u.name));
+    for (const Match& match : difference_.shared.outputs)
+      if (!isMargin(a_, match.first) && !isMargin(b_, match.second))
+        add("output: " + a_.outputs[match.first].name, a_.outputs[match.first].quantity,
+            b_.outputs[match.second].quantity);
+    for (const Match& match : difference_.shared.requirements)
+      add("requirement: " + a_.requirements[match.first].name, demandOf(a_, match.first), demandOf(b_, match.second));
     add("dependence", a_.dependence, b_.dependence);
     add("analysis", a_.analysis, b_.analysis);
     add("horizon", timeText(a_.horizon), timeText(b_.horizon));
@@ -335,6 +367,12 @@ class ComparisonPage {
       html += fmt::format("<li>{}</li>\n", escapeHtml(difference));
     if (!html.empty()) html = "<p>Numbers of the mechanism:</p>\n<ul>\n" + html + "</ul>\n";
     return html + (isAny ? table.html() : "");
+  }
+
+  /// "always angle < 3.6 rad, 0 to 2 s".
+  static std::string demandOf(const Results& results, std::size_t number) {
+    const RequirementResult& r = results.requirements[number];
+    return fmt::format("{}, {} to {}", r.statement, numberText(r.from, 8), timeText(r.until));
   }
 
   /// "19.6 to 20.4 kN/m, nominal 20; normal (mean 20); triangular"; empty where it is not uncertain.

@@ -149,7 +149,7 @@ class Explorer {
     const valueAt = event => {
       const box = /** @type {SVGSVGElement} */ (group.ownerSVGElement).getBoundingClientRect();
       const share = (event.clientY - box.top - aboveAxes) / axesHigh;
-      return up - Math.min(1, Math.max(0, share)) * (up - low);
+      return share >= 1 ? low : up - Math.max(0, share) * (up - low);
     };
     let begun = NaN;
     group.addEventListener("pointerdown", event => {
@@ -163,6 +163,9 @@ class Explorer {
     });
     group.addEventListener("pointerup", event => {
       if (Math.abs(valueAt(event) - begun) <= (up - low) / 60) this.setRange(axis, null);
+      begun = NaN;
+    });
+    group.addEventListener("lostpointercapture", () => {
       begun = NaN;
     });
     group.addEventListener("keydown", event => {

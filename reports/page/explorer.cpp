@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -125,10 +126,12 @@ class SampleExplorer {
     if (!kept_.present || cells == 0 || kept_.motions.size() < kept_.motionNumber.size() * cells ||
         kept_.values.size() < kept_.number.size() * quantities)
       return;
+    std::unordered_map<std::int64_t, std::size_t> places;
+    for (std::size_t place = 0; place < kept_.number.size(); ++place) places.emplace(kept_.number[place], place);
     for (std::size_t i = 0; i < kept_.motionNumber.size(); ++i) {
-      const auto found = std::ranges::find(kept_.number, kept_.motionNumber[i]);
-      if (found == kept_.number.end()) continue;
-      ExploredSample sample{static_cast<std::size_t>(found - kept_.number.begin()), i, kept_.motionNumber[i]};
+      const auto found = places.find(kept_.motionNumber[i]);
+      if (found == places.end()) continue;
+      ExploredSample sample{found->second, i, kept_.motionNumber[i]};
       for (const std::size_t r : shown_) {
         const RequirementResult& requirement = results_.requirements[r];
         const std::optional<std::size_t> row = decisiveRow(sample, requirement);
@@ -216,7 +219,6 @@ class SampleExplorer {
   }
 
   // ---- Words and data
-  // -------------------------------------------------------------------------------------------------
 
   std::string amountText() const {
     const auto missed = static_cast<std::size_t>(
@@ -225,9 +227,11 @@ class SampleExplorer {
                            ? fmt::format("{} of the {} samples whose motions are kept", samples_.size(), all_)
                            : fmt::format("The {} samples whose motions are kept", all_);
     if (results_.requirements.empty()) return text + ".";
-    return text + fmt::format("; {} of them {} a requirement at an output time.",
-                              missed == 0 ? "none" : fmt::format("{}", missed),
-                              missed == 1 || missed == 0 ? "violates" : "violate");
+    text += fmt::format("; {} of them {} a requirement at an output time.",
+                        missed == 0 ? "none" : fmt::format("{}", missed),
+                        missed == 1 || missed == 0 ? "violates" : "violate");
+    if (samples_.size() < all_ && missed > 0) text += " Those that violate one were chosen first, up to one half.";
+    return text;
   }
 
   std::string axesData() const {

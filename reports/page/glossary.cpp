@@ -41,8 +41,7 @@ constexpr Term terms[] = {
      "An interval with 95 % confidence: of a hundred that are found so, about 95 hold the true number."},
     {"sobol", "Sobol", "sensitivities",
      "Sobol\u2019 index: the share of an output\u2019s variance that a quantity is to blame for, from 0 to 1; a total "
-     "index "
-     "counts what it does together with others, too."},
+     "index counts what it does together with others, too."},
     {"derivative", "derivative", "sensitivities",
      "How much the output changes where a quantity changes by one unit and nothing else does."},
     {"enclosure", "enclosure", "numbers samples", "The guaranteed bounds of all outputs over all of the motion."},

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "commands/watched_files.hpp"
 #include "studies/results/results_file.hpp"
 #include "tests/commands/program.hpp"
 #include "tests/commands/started_program.hpp"
@@ -325,6 +326,8 @@ TEST_F(View, RunsAgainWhenTheFileIsSavedAndKeepsThePageWhileItIsWrong) {
   ASSERT_TRUE(wrong.is_object());
   EXPECT_THAT(std::string(wrong["fault"]), StartsWith("s.toml:"));
   EXPECT_EQ(wrong["page"], second["page"]);
+  EXPECT_EQ(wrong["begun"], first["begun"]);
+  EXPECT_GT(first["begun"], 0);
   EXPECT_THAT(report(), HasSubstr("<h1>Another</h1>"));
   view_->await([&] { return !folder_.read("err").empty(); });
   EXPECT_EQ(folder_.read("err"), std::string(wrong["fault"]) + "\n");
@@ -348,6 +351,24 @@ TEST_F(View, FollowsEditorsThatRenameAndFilesThatComeBack) {
   folder_.write("s.toml", sampleStudy);
   EXPECT_TRUE(wholePage(static_cast<int>(second["page"]) + 1).is_object());
   EXPECT_THAT(report(), HasSubstr("<h1>Pendulum</h1>"));
+}
+
+/// A robot, what it includes, and the meshes of both.
+TEST(WatchedFilesOfAStudy, AreThoseThatItsRobotsNameToo) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", "[mechanism]\nrobot = \"arm.xml\"\n");
+  folder.write("arm.xml", "<mujoco><include file=\"hand.xml\"/><mesh file='arm.stl'/></mujoco>");
+  folder.write("hand.xml", "<mesh filename=\"package://robots/hand.obj\"/><mesh file=\"far.step\"/>");
+  for (const char* name : {"arm.stl", "hand.obj", "far.step"}) folder.write(name, "as it was");
+  WatchedFiles files(folder.path("s.toml"));
+  const auto isSeen = [&] { return files.haveChanged() || files.haveChanged(); };
+  EXPECT_FALSE(isSeen());
+  for (const char* name : {"arm.stl", "hand.obj", "hand.xml", "arm.xml", "s.toml"}) {
+    folder.write(name, "<another/> of another length" + std::string(name));
+    EXPECT_TRUE(isSeen()) << name;
+  }
+  folder.write("far.step", "which nothing reads");
+  EXPECT_FALSE(isSeen());
 }
 
 TEST_F(View, FollowsTheTablesThatAStudyNames) {

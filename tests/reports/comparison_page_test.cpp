@@ -103,17 +103,37 @@ TEST(ComparisonPage, BeginsWithHowManyRequirementsAreBetterOrWorse) {
   EXPECT_EQ(leadOf(a, b), "Of 3 requirements in common 1 is better and 1 is worse in B.");
   b = a;
   EXPECT_EQ(leadOf(a, b), "Of 3 requirements in common none is better or worse in B.");
+  b.requirements.back().from += 0.25;
+  EXPECT_EQ(leadOf(a, b),
+            "Of 2 requirements in common none is better or worse in B. One requirement asks something else in B, which "
+            "is not compared.");
+  for (RequirementResult& requirement : b.requirements) requirement.from = a.requirements.back().from + 0.25;
+  EXPECT_EQ(leadOf(a, b), "3 requirements ask something else in B, which is not compared.");
+  EXPECT_THAT(pageOf(a, b), HasSubstr("requirement: third"));
+}
+
+/// What one of them knows for a part of the motion only is neither narrower nor cheaper.
+TEST(ComparisonPage, ComparesNoWidthsOfOtherSpans) {
+  const Results a = example::pendulum();
+  Results b = a;
+  widen(b.interval.at, 0, 1.5);
+  b.interval.over = {};
+  b.interval.reached = 0.5 * a.interval.reached;
+  EXPECT_THAT(pageOf(a, b), AllOf(HasSubstr("known for other spans:"), Not(HasSubstr("wider:"))));
+  EXPECT_THAT(pageOf(b, a), AllOf(HasSubstr("known for other spans:"), Not(HasSubstr("narrower:"))));
 }
 
 TEST(ComparisonPage, SaysWhatOnlyOneHasAndWhatWasAskedOtherwise) {
   const Results a = example::pendulum();
   Results b = a;
   b.outputs[1].name = "another";
+  b.outputs[0].quantity = "another.angle";
   b.uncertain[0].upper += 0.5;
   b.seed = a.seed + 1;
   const std::string page = pageOf(a, b);
   EXPECT_THAT(page, AllOf(HasSubstr("only in A: output " + a.outputs[1].name), HasSubstr("only in B: output another"),
-                          HasSubstr("uncertain: " + a.uncertain[0].name), HasSubstr("seed ")));
+                          HasSubstr("uncertain: " + a.uncertain[0].name), HasSubstr("seed "),
+                          HasSubstr("output: " + a.outputs[0].name), HasSubstr("another.angle")));
   EXPECT_THAT(page, Not(HasSubstr("<h3>another")));
 }
 
