@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -37,6 +38,12 @@ std::string valueText(const UncertainInfo& quantity, double value) {
   const double size = std::max(std::fabs(quantity.lower), std::fabs(quantity.upper));
   const int digits = std::max(6, digitsFor(size, quantity.upper - quantity.lower, 5));
   return inUnit(fmt::format("{} {}", quantity.name, numberText(told.of(value), digits)), told.unit());
+}
+
+/// x rounded down, never above x.
+std::string atLeastText(double x, int digits) {
+  const std::string below = atMostText(-x, digits);
+  return below.starts_with('-') ? below.substr(1) : below == "0" ? below : "-" + below;
 }
 
 class RequirementWording {
@@ -272,6 +279,47 @@ std::string shrinkSentence(const RequirementResult& requirement) {
   return requirement.factor > 0 && requirement.word != Decision::met
              ? fmt::format(" It is met in every case if all tolerances shrink to {}.", percentText(requirement.factor))
              : "";
+}
+
+std::string narrowedText(const UncertainInfo& quantity, double factor) {
+  constexpr double alike = 1e-6;
+  constexpr int digits = 3;
+  const Interval nominal(quantity.nominal), below = Interval(factor) * (nominal - Interval(quantity.lower)),
+                                            above = Interval(factor) * (Interval(quantity.upper) - nominal);
+  const Told told(quantity);
+  const Interval &less = below.lower() < above.lower() ? below : above,
+                 &more = below.lower() < above.lower() ? above : below;
+  const bool isAlike = more.upper() <= (1 + alike) * less.lower(),
+             isShare = quantity.stated.empty() || quantity.stated.find('%') != std::string::npos;
+  if (isAlike && isShare && quantity.nominal != 0)
+    return fmt::format("± {} %", atLeastText((Interval(100.0) * less / abs(nominal)).lower(), digits));
+  if (isAlike && !quantity.stated.starts_with('['))
+    return "± " + inUnit(atLeastText(told.of(less).lower(), digits), told.unit());
+  const double lower = told.of(nominal - below).upper(), upper = told.of(nominal + above).lower();
+  const int shown = digitsFor(std::max(std::fabs(lower), std::fabs(upper)), upper - lower, digits);
+  return inUnit(fmt::format("[{}, {}]", atMostText(lower, shown), atLeastText(upper, shown)), told.unit());
+}
+
+std::string aloneSentence(const Results& results, const RequirementResult& requirement) {
+  const std::vector<double>&lower = requirement.aloneLower, &upper = requirement.aloneUpper;
+  if (requirement.word == Decision::met || lower.size() < 2 || lower.size() != results.uncertain.size()) return {};
+  std::vector<std::size_t> enough(lower.size());
+  std::iota(enough.begin(), enough.end(), std::size_t{0});
+  std::erase_if(enough, [&](std::size_t q) { return !(lower[q] > 0); });
+  if (enough.empty())
+    return std::ranges::all_of(upper, [](double factor) { return factor == 0; })
+               ? " No tolerance would do alone, however tight."
+               : "";
+  std::ranges::stable_sort(enough, std::greater<>(), [&](std::size_t q) { return lower[q]; });
+  constexpr std::size_t most = 3;
+  enough.resize(std::min(most, enough.size()));
+  std::vector<std::string> ways;
+  for (const std::size_t q : enough) {
+    const UncertainInfo& of = results.uncertain[q];
+    ways.push_back(fmt::format("{} at {} instead of {}", of.name, narrowedText(of, lower[q]),
+                               of.stated.empty() ? narrowedText(of, 1) : of.stated));
+  }
+  return fmt::format(" One tolerance alone would do: {}.", fmt::join(ways, ", or "));
 }
 
 }  // namespace gamut

@@ -51,6 +51,14 @@ Decision wordOfRequirements(const Results& results);
 /// of it.
 std::string shrinkSentence(const RequirementResult& requirement);
 
+/// "± 2.1 %", "± 0.3 deg", "[19.9, 20.1] kN/m": the interval of a quantity that deviates so many times less, in the form
+/// in which the study states it, rounded inward.
+std::string narrowedText(const UncertainInfo& quantity, double factor);
+
+/// " One tolerance alone would do: damper at ± 1.2 % instead of ± 5 %.", or that none would; empty where neither is
+/// proved, of one that is met, and of a single quantity.
+std::string aloneSentence(const Results& results, const RequirementResult& requirement);
+
 /// "0.0694 to 0.0773", "0.002 at most": the probability that it is violated, proved, rounded outward.
 std::string violationProbability(const RequirementResult& requirement);
 

@@ -46,6 +46,7 @@ struct UncertainQuantity {
   bool varies = false;                                    ///< in time; else it is constant
   double rate = std::numeric_limits<double>::infinity();  ///< of what varies, at most, in its unit per s
   std::string told = {};                                  ///< unit in which it is stated; empty: the SI unit
+  std::string stated = {};                                ///< its interval, as it is written; empty: it follows
 };
 
 /// An output as it is asked for.

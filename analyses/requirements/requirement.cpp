@@ -59,6 +59,25 @@ class Examiner {
     return finding_.factor;
   }
 
+  /// A box of a greater factor holds that of a lesser one, so what holds in one violates the requirement in all that
+  /// are greater.
+  Interval factorAlone(std::size_t quantity) {
+    deviate_.assign(quantities_.size(), 0);
+    deviate_[quantity] = 1;
+    const auto refuted = [&](double factor) {
+      const std::optional<std::vector<double>> values = boxes_.violationIn(within(factor));
+      return values ? std::optional(shareOf(quantity, (*values)[quantity])) : std::nullopt;
+    };
+    if (const std::optional<double> alone = refuted(0)) return {0.0, *alone};
+    measureDeviations();
+    const double met = finding_.factor;
+    for (double beyond = 0.25 * options_.factorGap; met < 1 && !(workLeft() < 0); beyond *= 4) {
+      if (const std::optional<double> above = refuted(std::min(1.0, met + beyond))) return {met, std::max(met, *above)};
+      if (met + beyond >= 1) break;
+    }
+    return {met, 1.0};
+  }
+
  private:
   static CellQuestion withBesides(const FlowModels& models, CellQuestion question,
                                   const std::vector<CellQuantity>& quantities) {
@@ -408,16 +427,25 @@ class Examiner {
     return factor;
   }
 
+  /// How far a value is from the nominal one, as a share of the deviation to that side: rounded up.
+  double shareOf(std::size_t quantity, double value) const {
+    const Uncertain& u = *quantities_[quantity].uncertain;
+    if (value == u.nominal) return 0;
+    const double end = value > u.nominal ? u.range.upper() : u.range.lower();
+    return std::clamp(((Interval(value) - u.nominal) / (Interval(end) - u.nominal)).upper(), 0.0, 1.0);
+  }
+
+  /// The values of all quantities, of which those that count deviate so many times less.
+  std::vector<Interval> within(double factor) const {
+    return valuesOfAll([&](std::size_t q, const Uncertain& u) {
+      const Interval nominal(u.nominal);
+      return deviate_[q] == 0 || factor == 1 ? u.range
+                                             : intersection(nominal + Interval(factor) * (u.range - nominal), u.range);
+    });
+  }
+
   /// Of the boxes about the nominal values; if cells may say more, of these besides.
   void measureDeviations() {
-    const auto within = [&](double factor) {
-      return valuesOfAll([&](std::size_t q, const Uncertain& u) {
-        const Interval nominal(u.nominal);
-        return deviate_[q] == 0 || factor == 1
-                   ? u.range
-                   : intersection(nominal + Interval(factor) * (u.range - nominal), u.range);
-      });
-    };
     if (boxes_.isMet(within(1))) {
       finding_.factor = 1;
       return;
@@ -599,6 +627,12 @@ double guaranteedFactor(const FlowModels& models, const CellQuestion& question,
                         const std::vector<CellQuantity>& quantities, const std::vector<char>& deviate,
                         const RequirementOptions& options) {
   return Examiner(models, question, quantities, options).factor(deviate);
+}
+
+Interval factorAlone(const FlowModels& models, const CellQuestion& question,
+                     const std::vector<CellQuantity>& quantities, std::size_t quantity,
+                     const RequirementOptions& options) {
+  return Examiner(models, question, quantities, options).factorAlone(quantity);
 }
 
 }  // namespace gamut

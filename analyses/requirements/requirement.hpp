@@ -55,4 +55,11 @@ double guaranteedFactor(const FlowModels& models, const CellQuestion& question,
                         const std::vector<CellQuantity>& quantities, const std::vector<char>& deviate,
                         const RequirementOptions& options = {});
 
+/// Encloses the greatest such part, at most 1, where one quantity alone deviates less: with the lower end it is
+/// certainly met; beyond the upper end, if that is below 1, there are values that violate it. 0: these alone of the
+/// others do, whatever that quantity is.
+Interval factorAlone(const FlowModels& models, const CellQuestion& question,
+                     const std::vector<CellQuantity>& quantities, std::size_t quantity,
+                     const RequirementOptions& options = {});
+
 }  // namespace gamut

@@ -8,6 +8,7 @@
 
 #include "reports/drawing/axes.hpp"
 #include "reports/page/page.hpp"
+#include "reports/requirements.hpp"
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
 #include "studies/told.hpp"
@@ -85,9 +86,18 @@ std::string textOf(const ProvedValue& value, double widest) {
   return lower == upper ? lower : lower + " to " + upper;
 }
 
+/// "± 1.2 % would do", "not alone"; empty where neither is proved.
+std::string doingAlone(const UncertainInfo& quantity, const RequirementResult& requirement, std::size_t number) {
+  if (number >= requirement.aloneLower.size()) return {};
+  if (const double factor = requirement.aloneLower[number]; factor > 0)
+    return narrowedText(quantity, factor) + " would do";
+  return requirement.aloneUpper[number] == 0 ? "not alone" : "";
+}
+
 }  // namespace
 
-std::string whatToDo(const Results& results, std::size_t margin, std::size_t row, bool isOpen) {
+std::string whatToDo(const Results& results, const RequirementResult& requirement, std::size_t margin, std::size_t row,
+                     bool isOpen) {
   const std::vector<Limit> limits = limitsOf(results);
   const auto limit = std::ranges::find(limits, margin, &Limit::margin);
   if (limit == limits.end() || results.uncertain.size() < 2) return {};
@@ -117,20 +127,25 @@ std::string whatToDo(const Results& results, std::size_t margin, std::size_t row
                       values = inUnit(fmt::format("{} to {}", numberText(from, 5), numberText(to, 5)), told.unit()),
                       label = fmt::format("Plot of {}{} where {} alone goes from {}: {} to {}", output.name, when,
                                           quantity.name, values, least, most0);
-    rows += fmt::format("<li><span>{}<small>{}</small></span><div>{}<small>{}, {}</small></div><b>{}</b></li>\n",
-                        escapeHtml(quantity.name), escapeHtml(values), tornado.bar(one, label), least, most0,
-                        shareOfSpread(results, limit->output, one.quantity, results.time[all.row]));
+    rows +=
+        fmt::format("<li><span>{}<small>{}</small></span><div>{}<small>{}, {}</small></div><b>{}</b><b>{}</b></li>\n",
+                    escapeHtml(quantity.name), escapeHtml(values), tornado.bar(one, label), least, most0,
+                    shareOfSpread(results, limit->output, one.quantity, results.time[all.row]),
+                    escapeHtml(doingAlone(quantity, requirement, one.quantity)));
   }
   return fmt::format(
       "<details class=\"causes\"{}><summary>What to do: whose tolerance matters</summary>\n"
       "<p class=\"hint\">\u201c{}\u201d{} is {} with nominal values. Each bar: one quantity alone goes from the least "
       "(outline) "
-      "to the greatest (filled) of its values; numbers below are proved. Right: its share in the spread. "
-      "<code>gamut tolerance</code> finds how far each may go alone.</p>\n"
-      "<ol class=\"tornado\">\n{}<li class=\"ruler\"><span></span><div>{}</div><b></b></li>\n</ol>{}</details>\n",
+      "to the greatest (filled) of its values; numbers below are proved. Right: its share in the spread{}.</p>\n"
+      "<ol class=\"tornado\">\n{}<li "
+      "class=\"ruler\"><span></span><div>{}</div><b></b><b></b></li>\n</ol>{}</details>\n",
       isOpen ? " open" : "", escapeHtml(output.name), when,
-      escapeHtml(inUnit(textOf(all.nominal, greatest), output.unit)), rows,
-      tornado.ruler(output.unit == "1" ? "" : output.unit),
+      escapeHtml(inUnit(textOf(all.nominal, greatest), output.unit)),
+      requirement.aloneLower.empty() ? ""
+                                     : ", and the tolerance with which the requirement is proved to be met though all "
+                                       "others stay as they are (\u201cnot alone\u201d: no tolerance does that)",
+      rows, tornado.ruler(output.unit == "1" ? "" : output.unit),
       left == 0 ? "" : fmt::format("<p class=\"hint\">{} more matter less.</p>", left));
 }
 

@@ -50,8 +50,9 @@ struct OutputState {
 std::optional<OutputState> stateOfOutput(const Results& results, std::size_t output);
 
 /// What each quantity alone does at an output time to what is limited there, and its share; empty where the results do
-/// not know it.
-std::string whatToDo(const Results& results, std::size_t margin, std::size_t row, bool isOpen);
+/// not know it. Beside it, of the requirement, the tolerance that would do alone.
+std::string whatToDo(const Results& results, const RequirementResult& requirement, std::size_t margin, std::size_t row,
+                     bool isOpen);
 
 /// The share of a quantity in an output's spread, at the time next to this one (s) at which it is known: "76 %", "about
 /// 24 %"; empty where it is not.

@@ -196,9 +196,9 @@ std::string requirementCards(const Report& report) {
       continue;
     }
     const std::optional<Worst> at = worstOf(results, requirement);
-    const std::string said =
-        fmt::format("<b>{}</b> <span>{}</span> {}{}\n", stateOf(requirement), escapeHtml(words[r].name),
-                    escapeHtml(sentences[r]), shrinkSentence(requirement));
+    const std::string said = fmt::format("<b>{}</b> <span>{}</span> {}{}{}\n", stateOf(requirement),
+                                         escapeHtml(words[r].name), escapeHtml(sentences[r]),
+                                         shrinkSentence(requirement), escapeHtml(aloneSentence(results, requirement)));
     html += fmt::format("<li class=\"{}\" id=\"requirement-{}\"{}>", words[r].word, r + 1,
                         at && results.horizon > 0
                             ? fmt::format(" data-instant=\"{}\"", numberText(results.time[at->row], 12))
@@ -208,7 +208,7 @@ std::string requirementCards(const Report& report) {
     } else {
       html += fmt::format("<div class=\"seen\"><div class=\"said\">{}{}</div>{}</div>\n", said,
                           marginBar(results, requirement, *at), closeUp(report, r, *at));
-      if (requirement.word != Decision::met) html += whatToDo(results, at->margin, at->row, shown == 1);
+      if (requirement.word != Decision::met) html += whatToDo(results, requirement, at->margin, at->row, shown == 1);
     }
     html += threeAnswers(words[r]) + "</li>\n";
   }

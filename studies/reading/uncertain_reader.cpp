@@ -172,6 +172,7 @@ class UncertainReader {
     readShapes(source_, section, files_, shapes_, result);
     readCourse(section, node, result);
     result.told = unitOfStatement(stated, result);
+    if (stated != nullptr) result.stated = textOf(*stated);
     try {
       result.uncertain.check();
     } catch (const std::invalid_argument& error) {
@@ -277,6 +278,18 @@ class UncertainReader {
     const auto [below, above] = deviations(*interval, "uncertain.interval", **interval->as_string());
     std::string unit = unitOfKind(above, result.unit);
     return unit.empty() ? unitOfKind(below, result.unit) : unit;
+  }
+
+  /// "± 2 %", "[1 kg, 2 kg]", as it is written but for quotes.
+  static std::string textOf(const toml::node& interval) {
+    if (interval.is_string()) return **interval.as_string();
+    const toml::array* ends = interval.as_array();
+    std::vector<std::string> texts;
+    for (const toml::node& end : *ends)
+      texts.push_back(end.is_string()    ? **end.as_string()
+                      : end.is_integer() ? fmt::format("{}", **end.as_integer())
+                                         : fmt::format("{}", **end.as_floating_point()));
+    return fmt::format("[{}]", fmt::join(texts, ", "));
   }
 
   /// Empty too of a unit of another kind.

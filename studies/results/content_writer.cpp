@@ -105,6 +105,11 @@ class ContentWriter {
     return values;
   }
 
+  static bool isSomeEmpty(const std::vector<std::vector<Field>>& records, std::size_t f) {
+    return std::ranges::any_of(
+        records, [f](const std::vector<Field>& fields) { return std::get<Numbers>(fields[f].value).empty(); });
+  }
+
   void writeColumn(const Group& group, const std::vector<std::vector<Field>>& records, std::size_t f,
                    Hdf5Writer& out) const {
     const Field& field = records.front()[f];
@@ -134,6 +139,7 @@ class ContentWriter {
                   for (const std::vector<Field>& fields : records)
                     for (const std::vector<double>* some : std::get<Numbers>(fields[f].value).lists())
                       numbers.insert(numbers.end(), some->begin(), some->end());
+                  if (field.isNew && isSomeEmpty(records, f)) return;  // of records that an older file held
                   writeNumbers(group, field, "", numbers, out);
                 },
                 [&](const auto&) { throw std::logic_error(pathOf(group, field) + ": no record has such a field"); }},

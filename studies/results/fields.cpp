@@ -211,7 +211,8 @@ std::string misshapen(const std::vector<Group>& groups) {
   for (const Group& group : groups)
     for (std::size_t i = 0; i < group.size; ++i)
       for (const Field& field : group.fields(i))
-        if (!hasShape(field.value, shapeOf(field.dimensions, extents), !group.isList())) return pathOf(group, field);
+        if (!hasShape(field.value, shapeOf(field.dimensions, extents), !group.isList() || field.isNew))
+          return pathOf(group, field);
   return "";
 }
 

@@ -90,7 +90,10 @@ std::vector<Field> fieldsOfUncertain(UncertainInfo& u) {
            "possibility agree as far as was looked",
            allowed::share},
           fresh({"told", &u.told, unit::none,
-                 "unit in which summary and page tell it, as the study states it; empty: its SI unit"})};
+                 "unit in which summary and page tell it, as the study states it; empty: its SI unit"}),
+          fresh({"stated", &u.stated, unit::none,
+                 "the interval as the study states it, such as \"± 2 %\"; empty where it follows from distribution and "
+                 "membership"})};
 }
 
 std::vector<Field> fieldsOfShape(ShapeInfo& s) {

@@ -1,6 +1,9 @@
 // What the file says of requirements.
 #include "studies/results/requirements.hpp"
 
+#include <algorithm>
+#include <functional>
+
 namespace gamut {
 namespace {
 
@@ -31,6 +34,20 @@ std::vector<Field> fieldsOfGuarantee(RequirementResult& r) {
        "it is proved to be met where deviations from the nominal values are up to so many times those of the "
        "intervals; 1: for all",
        allowed::share},
+      fresh({"alone_lower",
+             &r.aloneLower,
+             unit::one,
+             "it is proved to be met where this quantity alone deviates by up to so many times what is stated, and all "
+             "others by as much as is stated; 0: that is proved of no factor",
+             {dimension::quantity},
+             allowed::share}),
+      fresh({"alone_upper",
+             &r.aloneUpper,
+             unit::one,
+             "where it deviates by as much or more, that is proved to violate it for some values; 0: whatever that "
+             "quantity is; 1: of no lesser factor is that known",
+             {dimension::quantity},
+             allowed::share}),
       {"violation",
        &r.violation,
        unit::ofQuantity,
@@ -130,6 +147,7 @@ void RequirementsResult::describe(std::vector<Group>& groups) {
                           {"margin", ""},
                           {"margins", ""},
                           {"word", "guaranteed"},
+                          {"alone", "alone/*"},
                           {"violation", "violation/*"},
                           {"violation_sample", ""},
                           {"violation_between", ""},
@@ -149,7 +167,8 @@ void RequirementsResult::describe(std::vector<Group>& groups) {
     const RequirementResult& r = requirements[i];
     return r.probabilityLower <= r.probabilityUpper && r.violationLeast <= r.violationMost &&
            r.violating <= r.samples && r.estimate.met + r.estimate.violated <= r.estimate.samples &&
-           isInterval(r.violationLower, r.violationUpper) && r.from <= r.until;
+           isInterval(r.violationLower, r.violationUpper) && r.from <= r.until &&
+           std::ranges::equal(r.aloneLower, r.aloneUpper, std::less_equal<>());
   };
   groups.push_back(groupOf("/requirements/proof", "how their proof ended", *this, fieldsOfProof));
 }

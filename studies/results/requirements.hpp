@@ -45,6 +45,8 @@ struct RequirementResult {
   double metUntil = unknown;     ///< s: of what is always to be, met for every value so long; NaN: not even at first
   double met = 0, violated = 0;  ///< of at least so much of the uncertain box, by volume
   double factor = 0;             ///< met for deviations from nominal up to so many times those stated
+  /// Bounds of the greatest such factor where one quantity alone deviates less, one a quantity; none in older files.
+  std::vector<double> aloneLower, aloneUpper;
   /// Values for which it is violated, one a quantity; of what varies in time, the number that chooses its course. NaN:
   /// none are known, or it is violated whatever that one is.
   std::vector<double> violation;

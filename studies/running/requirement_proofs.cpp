@@ -257,6 +257,7 @@ class RequirementProof {
     }
     for (std::size_t r = 0; r < results_.requirements.size(); ++r)
       if (results_.requirements[r].word != Decision::met) proveViolation(r);
+    proveAlone();
   }
 
  private:
@@ -308,15 +309,62 @@ class RequirementProof {
     checkpoint.end(end);
   }
 
+  std::vector<CellQuantity> quantities() const {
+    std::vector<CellQuantity> quantities;
+    for (const ConstantQuantity& of : run_.machine.constants)
+      quantities.push_back({of.slot, &study_.uncertain[of.number].uncertain});
+    return quantities;
+  }
+
+  /// How far each quantity alone must deviate less: with a quarter of the work that is left, of which each gets as
+  /// much.
+  void proveAlone() {
+    std::vector<std::size_t> asked;
+    for (std::size_t r = 0; r < results_.requirements.size(); ++r) {
+      RequirementResult& result = results_.requirements[r];
+      if (result.word == Decision::met) std::ranges::fill(result.aloneLower, 1.0);
+      if (result.word == Decision::violated) std::ranges::fill(result.aloneUpper, 0.0);
+      const bool isOpen = result.word == Decision::open || result.word == Decision::partly;
+      const std::size_t reached = enclosure_.models ? enclosure_.models->at.size() : 0;
+      if (isOpen && reached > 0 && study_.times[reached - 1] >= result.until) asked.push_back(r);
+    }
+    if (asked.empty() || run_.machine.constants.empty()) return;
+    const Charge charge(&run_.spent.requirements);
+    CheckpointedTask checkpoint(run_.options.checkpoints);
+    const auto end = [&](Archive& all) { all(results_); };
+    if (checkpoint.recall(end, {}) == CheckpointedTask::Recalled::end) return;
+    const std::shared_ptr<const FlowModels> known = models();
+    double left = 0.25 * workForRequirements(run_);
+    std::size_t remaining = asked.size() * run_.machine.constants.size();
+    for (const std::size_t r : asked)
+      for (std::size_t i = 0; i < run_.machine.constants.size(); ++i)
+        left -= proveAlone(*known, r, i, left / static_cast<double>(remaining--));
+    checkpoint.end(end);
+  }
+
+  /// Of one of the constant quantities; the work that it took.
+  double proveAlone(const FlowModels& models, std::size_t number, std::size_t constant, double work) {
+    if (!(work > 0) || *run_.watch.stop()) return 0;
+    const std::uint64_t began = Work::counted();
+    RequirementOptions options;
+    options.mostWork = work;
+    options.cancelled = run_.watch.stop();
+    const Interval factor = factorAlone(models, questionOf(study_, study_.requirements[number], models.at.size()),
+                                        quantities(), constant, options);
+    RequirementResult& result = results_.requirements[number];
+    const std::size_t quantity = run_.machine.constants[constant].number;
+    result.aloneLower[quantity] = factor.lower();
+    result.aloneUpper[quantity] = factor.upper();
+    return static_cast<double>(Work::counted() - began);
+  }
+
   /// What models of the margins say of one requirement; no less than what is known of it already.
   void examineAnew(const FlowModels& models, std::size_t number, double work, std::vector<Suspect>& suspects) {
     const Requirement& requirement = study_.requirements[number];
     const CellQuestion whole = questionOf(study_, requirement, study_.times.size());
     if (models.at.size() <= whole.from) return;
     const CellQuestion question = questionOf(study_, requirement, models.at.size());
-    std::vector<CellQuantity> quantities;
-    for (const ConstantQuantity& of : run_.machine.constants)
-      quantities.push_back({of.slot, &study_.uncertain[of.number].uncertain});
+    const std::vector<CellQuantity> quantities = this->quantities();
     RequirementOptions options;
     std::vector<FlowSymbol> symbols;
     for (const CellQuantity& quantity : quantities) symbols.push_back(models.components[quantity.component]);
@@ -382,6 +430,8 @@ void stateRequirements(const Study& study, Results& results) {
     result.margin = requirement.firstMargin;
     result.margins = static_cast<std::int64_t>(requirement.margins());
     result.violation.assign(study.uncertain.size(), RequirementResult::unknown);
+    result.aloneLower.assign(study.uncertain.size(), 0.0);
+    result.aloneUpper.assign(study.uncertain.size(), 1.0);
   }
   results.margins = marginsOf(study);
 }

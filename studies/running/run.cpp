@@ -110,6 +110,7 @@ Results withOrigin(const Run& run) {
                                 std::string(u.distribution.name()), std::string(u.membership.name())});
     UncertainInfo& info = origin.uncertain.back();
     info.told = q.told;
+    info.stated = q.stated;
     if (q.varies) {
       const Told own(q.unit, "");  // a comparison looks at this text, in whatever units two studies are stated
       info.distribution = info.membership =

@@ -277,6 +277,48 @@ TEST(RequirementWords, SayWithWhichTolerancesItHolds) {
   EXPECT_EQ(shrinkSentence(requirement), "");
 }
 
+TEST(RequirementWords, TellANarrowerToleranceAsItIsStated) {
+  UncertainInfo quantity{"damper", "c", "N s/m", 1350, 1500, 1650, "uniform", "triangular"};
+  EXPECT_EQ(narrowedText(quantity, 1), "± 10 %");
+  EXPECT_EQ(narrowedText(quantity, 0.12345), "± 1.23 %");  // rounded down
+  quantity.stated = "± 10 %";
+  EXPECT_EQ(narrowedText(quantity, 0.5), "± 5 %");
+  quantity.stated = "± 150 N s/m";
+  EXPECT_EQ(narrowedText(quantity, 0.5), "± 75 N s/m");
+  quantity.stated = "[1350 N s/m, 1650 N s/m]";
+  EXPECT_EQ(narrowedText(quantity, 0.5), "[1425, 1575] N s/m");
+  EXPECT_EQ(narrowedText(quantity, 0.0128), "[1498.08, 1501.92] N s/m");
+  quantity.upper = 1560;
+  quantity.stated = "+ 4 / - 10 %";
+  EXPECT_EQ(narrowedText(quantity, 0.5), "[1425, 1530] N s/m");
+  UncertainInfo angle{"start", "q", "rad", -0.0174532925199433, 0, 0.0174532925199433, "uniform", "triangular"};
+  angle.told = "deg";
+  angle.stated = "± 1 deg";
+  EXPECT_EQ(narrowedText(angle, 0.3), "± 0.3 deg");
+  angle.stated.clear();
+  EXPECT_EQ(narrowedText(angle, 0.3), "± 0.3 deg");
+}
+
+TEST(RequirementWords, SayWhichToleranceWouldDoAlone) {
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::partly);
+  RequirementResult& requirement = results.requirements.front();
+  results.uncertain.assign(4, {"spring", "k", "N/m", 96, 100, 104, "uniform", "triangular"});
+  results.uncertain[1].name = "damper";
+  results.uncertain[1].stated = "+/- 4 %";
+  EXPECT_EQ(aloneSentence(results, requirement), "");  // of an older file
+  requirement.aloneLower.assign(4, 0);
+  requirement.aloneUpper.assign(4, 1);
+  EXPECT_EQ(aloneSentence(results, requirement), "");  // nothing is known
+  requirement.aloneUpper.assign(4, 0);
+  EXPECT_EQ(aloneSentence(results, requirement), " No tolerance would do alone, however tight.");
+  requirement.aloneLower = {0.25, 0.5, 0, 0};
+  requirement.aloneUpper = {0.25, 0.75, 0, 1};
+  EXPECT_EQ(aloneSentence(results, requirement),
+            " One tolerance alone would do: damper at ± 2 % instead of +/- 4 %, or spring at ± 1 % instead of ± 4 %.");
+  requirement.word = Decision::met;
+  EXPECT_EQ(aloneSentence(results, requirement), "");
+}
+
 TEST(PlainSummary, CountsRequirements) {
   Results results = withRequirement({above("a", "1 m", "m")}, Decision::met);
   EXPECT_EQ(summaryOf(results), "The requirement is met in every case that the stated tolerances allow.");

@@ -665,6 +665,84 @@ TEST(Requirements, NameOneCauseAndWhatMayHelp) {
   EXPECT_EQ(named(results, "met").advice, "study.compare with \"interval\"");
 }
 
+/// a + b < limit at rest, a of 1 m ± 10 %, b of 2 m ± 0.1 m: 3.2 m is met where both, or one of them alone, shrink.
+TEST(Requirements, SayWhichToleranceWouldDoAlone) {
+  const Results results = run(read(R"([study]
+analysis = "kinematics"
+[mechanism]
+parameters = { a = "1 m", b = "2 m", c = "1 kg" }
+[[uncertain]]
+quantity = "a"
+interval = "± 10 %"
+[[uncertain]]
+quantity = "b"
+interval = ["1.9 m", 2.1]
+[[uncertain]]
+quantity = "c"
+interval = "+1/-2 %"
+[[output]]
+name = "sum"
+quantity = "a + b"
+[[output]]
+name = "c"
+quantity = "c"
+[[requirement]]
+name = "half"
+always = "sum < 3.15 m"
+[[requirement]]
+name = "neither"
+always = "sum < 3.09375 m"
+[[requirement]]
+name = "nominal"
+always = "sum < 2.95 m"
+[[requirement]]
+name = "met"
+always = "sum < 3.3 m"
+[[requirement]]
+name = "violated"
+always = "sum < 2.7 m"
+[stochastic]
+samples = 64
+)"));
+  EXPECT_EQ(results.uncertain[0].stated, "± 10 %");
+  EXPECT_EQ(results.uncertain[1].stated, "[1.9 m, 2.1]");
+  EXPECT_EQ(results.uncertain[2].stated, "+1/-2 %");
+  const RequirementResult half = named(results, "half");
+  EXPECT_EQ(half.word, Decision::partly);
+  for (const std::size_t q : {0, 1}) {  // 3.15 = 3 + 0.1 + 0.05, but for roundings of the numbers
+    EXPECT_LE(half.aloneLower[q], 0.5 + 1e-12);
+    EXPECT_GE(half.aloneUpper[q], 0.5 - 1e-12);
+    EXPECT_LT(half.aloneUpper[q] - half.aloneLower[q], 0.005);
+  }
+  EXPECT_EQ(half.aloneLower[2], 0);  // what does not matter does not help
+  EXPECT_EQ(half.aloneUpper[2], 0);
+  for (const std::string name : {"neither", "nominal", "violated"}) {
+    EXPECT_EQ(named(results, name).aloneLower, std::vector<double>(3, 0)) << name;
+    EXPECT_EQ(named(results, name).aloneUpper, std::vector<double>(3, 0)) << name;
+  }
+  EXPECT_EQ(named(results, "met").aloneLower, std::vector<double>(3, 1));
+  EXPECT_EQ(named(results, "met").aloneUpper, std::vector<double>(3, 1));
+  TemporaryFolder folder;
+  writeResults(results, folder.path("r.h5"));
+  EXPECT_EQ(differences(readResults(folder.path("r.h5")), results), std::vector<std::string>{});
+}
+
+/// Of a motion, at every instant: an oscillator's swing x0 cos(w t) is x0 at the start.
+TEST(Requirements, SayWhichToleranceWouldDoAloneAtEveryInstant) {
+  std::string text =
+      withRequirements("[[requirement]]\nname = \"limit\"\nalways = \"angle < 30.15 deg\"\nuntil = 0.2\n");
+  text.replace(text.find("[[output]]"), 10,
+               "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 1 %\"\n[[output]]");
+  text.replace(text.find("rate = 0.5"), 10, "rate = -0.5");
+  const Results results = run(read(text));
+  const RequirementResult limit = named(results, "limit");
+  EXPECT_EQ(limit.word, Decision::partly);
+  EXPECT_LE(limit.aloneLower[0], 0.5 + 1e-12);
+  EXPECT_GE(limit.aloneUpper[0], 0.5 - 1e-12);
+  EXPECT_LT(limit.aloneUpper[0] - limit.aloneLower[0], 0.01);
+  EXPECT_EQ(limit.aloneUpper[1], 0);
+}
+
 // ---- Tolerances -----------------------------------------------------------------------------------------------------
 
 TEST(Tolerances, AreAsLargeAsRequirementsAllow) {

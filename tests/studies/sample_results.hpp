@@ -139,6 +139,7 @@ inline Results sampleResults() {
   met.met = met.factor = met.probabilityLower = 1;
   met.violationMost = 0;
   met.violation = {nan};
+  met.aloneLower = met.aloneUpper = {1};
   RequirementResult& partly = r.requirements[1];
   partly.name = "clearance";
   partly.statement = "eventually tip.position.z >= 0.5 m";
@@ -151,6 +152,8 @@ inline Results sampleResults() {
   partly.violated = 0.25;
   partly.factor = 0.75;
   partly.violation = {0.95};
+  partly.aloneLower = {0.25};
+  partly.aloneUpper = {0.5};
   partly.violationSample = 17;
   partly.violationTime = 0.01;
   partly.violationLower = -0.25;

@@ -3,11 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <random>
 
 #include "analyses/flow/flow.hpp"
+#include "analyses/flow/image.hpp"
 #include "tests/analyses/reference.hpp"
 
 namespace gamut::testing {
@@ -259,6 +261,83 @@ TEST(Requirement, KnowsHowMuchASingleQuantityMayDeviate) {
   EXPECT_NEAR(guaranteedFactor(*tube.models(), question, quantities, {0, 1}), 0.5, 0.003);
   EXPECT_NEAR(guaranteedFactor(*tube.models(), question, quantities, {1, 1}), 0.75, 0.003);
   EXPECT_EQ(guaranteedFactor(*tube.models(), question, quantities, {0, 0}), 0);
+}
+
+/// x(1) = a + b > limit, a of 2.5 ± 0.5, b of -0.5 ± 0.5: with b = -1, a may fall to 1 + limit; and the other way
+/// round.
+TEST(Requirement, EnclosesHowMuchOneQuantityMustDeviateLessAlone) {
+  for (const double limit : {1.0625, 1.125, 1.25, 1.375, 1.484375, 1.5, 1.5625, 1.75, 2.25}) {
+    SCOPED_TRACE(limit);
+    Question q = falling({2.0, 3.0}, {-1.0, 0.0}, [limit](const auto& x) { return x - limit; });
+    q.examine();
+    FlowOptions flow;
+    flow.modelled = {0};
+    const Tube tube = Flow(q.f, q.g, flow).enclose(q.box, q.horizon, q.times);
+    const std::vector<CellQuantity> quantities{{0, &q.uncertain[0]}, {1, &q.uncertain[1]}};
+    const CellQuestion question{When::always, {0}, {0}, 0, tube.reachedTimes() - 1};
+    const double exact = std::max(0.0, 3 - 2 * limit);  // all of these are doubles
+    for (const std::size_t alone : {0, 1}) {
+      const Interval found = factorAlone(*tube.models(), question, quantities, alone);
+      EXPECT_LE(found.lower(), exact);
+      EXPECT_GE(found.upper(), exact);
+      EXPECT_LT(width(found), 0.01);
+      EXPECT_TRUE(limit <= 1.5 || isEqual(found, Interval(0.0)));
+    }
+  }
+}
+
+/// c + Σ a_i η_i + Σ b_ij η_i η_j of two to four quantities, nominal anywhere, is least at corners, and along one
+/// quantity it is a line: on each the greatest part of its way to either side that stays above zero is a quotient.
+TEST(Requirement, EnclosesHowMuchOneMustDeviateLessOfManyProducts) {
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int enough = 0, never = 0, all = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    SCOPED_TRACE(trial);
+    const std::size_t count = 2 + trial % 3;
+    std::vector<double> slope(count), product(count * count);
+    for (double& a : slope) a = any(engine);
+    for (double& b : product) b = 0.3 * any(engine);
+    const double least = 0.4 + 0.9 * count * std::abs(any(engine));
+    const auto value = [&](const auto& eta) {
+      std::decay_t<decltype(eta[0])> sum = least + slope[0] * eta[0];
+      for (std::size_t i = 1; i < count; ++i) sum = sum + slope[i] * eta[i];
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < i; ++j) sum = sum + product[i * count + j] * eta[i] * eta[j];
+      return sum;
+    };
+    Box box(count, Interval(-1.0, 1.0));
+    std::vector<Uncertain> uncertain;
+    for (std::size_t q = 0; q < count; ++q) uncertain.push_back(quantity(box[q], 0.9 * any(engine)));
+    std::vector<CellQuantity> quantities;
+    for (std::size_t q = 0; q < count; ++q) quantities.push_back({static_cast<int>(q), &uncertain[q]});
+    const Program g =
+        record(0, static_cast<int>(count), 1, [&](auto, const auto&, const auto& p, auto& y) { y[0] = value(p); });
+    const auto models = findImage(g, 0.0, box, {}, {0}, -1, nullptr).models;
+    ASSERT_TRUE(models);
+    for (std::size_t alone = 0; alone < count; ++alone) {
+      Precise exact = 1;
+      for (unsigned corner = 0; corner < 1U << count; ++corner) {
+        Vector eta(count);
+        for (std::size_t q = 0; q < count; ++q) eta[q] = (corner >> q & 1U) != 0 ? 1 : -1;
+        const Precise nominal = uncertain[alone].nominal, end = value(eta);
+        eta[alone] = nominal;
+        const Precise begin = value(eta);
+        if (begin <= 0)
+          exact = 0;
+        else if (end < 0)
+          exact = std::min<Precise>(exact, begin / (begin - end));
+      }
+      const Interval found = factorAlone(*models, {When::always, {0}, {0}, 0, 0}, quantities, alone);
+      EXPECT_LE(Precise(found.lower()), exact);
+      EXPECT_GE(Precise(found.upper()), exact);
+      EXPECT_LT(width(found), 0.02);
+      (exact == 0 ? never : exact == 1 ? all : enough) += 1;
+    }
+  }
+  EXPECT_GT(enough, 10);
+  EXPECT_GT(never, 10);
+  EXPECT_GT(all, 10);
 }
 
 /// Whatever the quantities are distributed like: as many of a million values as the bounds say.

@@ -112,6 +112,16 @@ TEST(Causes, LeadWithTheQuantityThatMattersMost) {
   EXPECT_NEAR(number("missed", "width", 0), number("at-greatest", "x", mass), 0.2);  // 0.75 is the limit, too
 }
 
+TEST(Causes, SayWhichToleranceWouldDoAlone) {
+  Results results = tilted();
+  EXPECT_THAT(renderReport(results), Not(HasSubstr("not alone")));
+  results.requirements[0].aloneLower = {0.5, 0, 0};
+  results.requirements[0].aloneUpper = {0.5, 0, 1};
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page, AllOf(HasSubstr("<b>± 10 % would do</b></li>"), HasSubstr("<b>not alone</b></li>"),
+                          HasSubstr("One tolerance alone would do: first &lt;angle&gt; at ± 10 % instead of ± 20 %.")));
+}
+
 TEST(Causes, AreToldOfWhatCanFailAlone) {
   Results results = tilted();
   results.requirements[0].word = Decision::met;
