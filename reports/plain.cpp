@@ -63,6 +63,19 @@ class Sentence {
     return words.starts_with("in ") ? "I" + words.substr(1) : words;
   }
 
+  std::optional<ViolationFacts> facts() const {
+    if (r_.word != Decision::partly && r_.word != Decision::violated) return std::nullopt;
+    std::vector<std::string> likely;
+    if (r_.word == Decision::violated)
+      likely.emplace_back("always");
+    else if (isRarelyMet(results_, r_))
+      likely.push_back("in all cases but for " + rareText(r_));
+    else if (isProbabilityTelling())
+      likely.push_back(violationShare(r_) + " of all cases, proved");
+    if (r_.samples > 0) likely.push_back(fmt::format("{} of {} simulated cases", r_.violating, r_.samples));
+    return ViolationFacts{does(false) + window(), fmt::format("{}", fmt::join(likely, "; ")), missedFact()};
+  }
+
  private:
   std::string said() const {
     if (r_.word == Decision::met)
@@ -115,10 +128,14 @@ class Sentence {
                                : fmt::format(" from {} s to {} s", numberText(r_.from, 6), numberText(r_.until, 6));
   }
 
+  bool isProbabilityTelling() const {
+    constexpr double telling = 0.5;
+    return isProbabilityProved(results_) && r_.probabilityUpper - r_.probabilityLower < telling;
+  }
+
   /// That it is violated, as far as that is proved.
   std::string probability() const {
-    constexpr double telling = 0.5;
-    if (!isProbabilityProved(results_) || !(r_.probabilityUpper - r_.probabilityLower < telling)) return {};
+    if (!isProbabilityTelling()) return {};
     return fmt::format(" The proved probability of that is {}.", violationProbability(r_));
   }
 
@@ -132,25 +149,42 @@ class Sentence {
     return true;
   }
 
-  std::string violation() const {
+  /// The case that violates it, and by how much it does: "sample 17", "the limit by 0.2 mm at 3 s".
+  struct Violation {
+    std::string who, missed;
+  };
+
+  std::optional<Violation> knownViolation() const {
     const bool isKnown = std::ranges::any_of(r_.violation, [](double x) { return !std::isnan(x); });
-    if (!isKnown) return {};
+    if (!isKnown) return std::nullopt;
     const std::string name = r_.violationSample < 0 ? "" : results_.stochastic.nameOf(r_.violationSample);
     const bool isMissKnown = r_.violationUpper <= 0;
-    if (name.empty() && !isMissKnown && !r_.isViolatedBetween) return {};  // it would say nothing
-    std::string text = r_.word == Decision::violated ? " For example, in " : " In ";
-    text += name.empty() ? "one case that was found"
-            : name.find("corner") != std::string::npos || isAtEnds()
-                ? fmt::format("an extreme combination of the tolerances ({})", name)
-            : name.find("point") != std::string::npos ? fmt::format("a combination within the tolerances ({})", name)
-                                                      : name;
-    const std::string_view what = demand_.where.empty() ? "that" : "the limit";
-    if (r_.isViolatedBetween) return text + fmt::format(" it misses {} for an instant.", what);
-    if (!isMissKnown) return text + fmt::format(" it misses {}.", what);
-    return text + fmt::format(" it misses {} by {}{}.", what, missOf(results_, r_),
-                              std::isnan(r_.violationTime) || results_.horizon == 0
-                                  ? ""
-                                  : fmt::format(" at {} s", numberText(r_.violationTime, 6)));
+    if (name.empty() && !isMissKnown && !r_.isViolatedBetween) return std::nullopt;  // it would say nothing
+    const std::string who = name.empty() ? "one case that was found"
+                            : name.find("corner") != std::string::npos || isAtEnds()
+                                ? fmt::format("an extreme combination of the tolerances ({})", name)
+                            : name.find("point") != std::string::npos
+                                ? fmt::format("a combination within the tolerances ({})", name)
+                                : name;
+    const std::string what = demand_.where.empty() ? "that" : "the limit";
+    if (r_.isViolatedBetween) return Violation{who, what + " for an instant"};
+    if (!isMissKnown) return Violation{who, what};
+    return Violation{who, fmt::format("{} by {}{}", what, missOf(results_, r_),
+                                      std::isnan(r_.violationTime) || results_.horizon == 0
+                                          ? ""
+                                          : fmt::format(" at {} s", numberText(r_.violationTime, 6)))};
+  }
+
+  std::string violation() const {
+    const std::optional<Violation> known = knownViolation();
+    if (!known) return {};
+    return fmt::format("{}{} it misses {}.", r_.word == Decision::violated ? " For example, in " : " In ", known->who,
+                       known->missed);
+  }
+
+  std::string missedFact() const {
+    const std::optional<Violation> known = knownViolation();
+    return known ? fmt::format("{}, in {}", known->missed, known->who) : "";
   }
 
   std::string share() const {
@@ -258,6 +292,13 @@ std::vector<std::string> plainRequirements(const Results& results) {
   for (const RequirementResult& requirement : results.requirements)
     sentences.push_back(Sentence(results, requirement).text());
   return sentences;
+}
+
+std::vector<std::optional<ViolationFacts>> violationFacts(const Results& results) {
+  std::vector<std::optional<ViolationFacts>> facts;
+  for (const RequirementResult& requirement : results.requirements)
+    facts.push_back(Sentence(results, requirement).facts());
+  return facts;
 }
 
 std::string plainSummary(const Results& results, const Verdict& verdict, std::size_t output) {

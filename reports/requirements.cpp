@@ -40,6 +40,15 @@ std::string valueText(const UncertainInfo& quantity, double value) {
   return inUnit(fmt::format("{} {}", quantity.name, numberText(told.of(value), digits)), told.unit());
 }
 
+/// Of the probability that it is violated: 1 - p is exact from 0.5 to 1 (Sterbenz) and at 0; else its next neighbour
+/// bounds it.
+std::pair<double, double> violationBounds(const RequirementResult& requirement) {
+  const auto complement = [](double p, double towards) {
+    return p == 0 || p >= 0.5 ? 1 - p : std::nextafter(1 - p, towards);
+  };
+  return {complement(requirement.probabilityUpper, 0), complement(requirement.probabilityLower, 1)};
+}
+
 /// x rounded down, never above x.
 std::string atLeastText(double x, int digits) {
   const std::string below = atMostText(-x, digits);
@@ -189,6 +198,36 @@ std::string missText(const Results& results, const RequirementResult& requiremen
   return text;
 }
 
+/// Whether values of the others alone violate it, whichever quantity has none but its nominal value.
+bool isAloneRefuted(const RequirementResult& requirement) {
+  const std::vector<double>& upper = requirement.aloneUpper;
+  return requirement.word != Decision::met && upper.size() > 1 &&
+         std::ranges::all_of(upper, [](double factor) { return factor == 0; });
+}
+
+/// A quantity of which a narrower tolerance would do alone.
+struct WayAlone {
+  std::string name, enough, stated;  ///< the latter two: that tolerance, and the one that is stated
+};
+
+/// Three at most, that which need shrink least first.
+std::vector<WayAlone> waysAlone(const Results& results, const RequirementResult& requirement) {
+  const std::vector<double>& lower = requirement.aloneLower;
+  std::vector<WayAlone> ways;
+  if (requirement.word == Decision::met || lower.size() < 2 || lower.size() != results.uncertain.size()) return ways;
+  std::vector<std::size_t> enough(lower.size());
+  std::iota(enough.begin(), enough.end(), std::size_t{0});
+  std::erase_if(enough, [&](std::size_t q) { return !(lower[q] > 0); });
+  std::ranges::stable_sort(enough, std::greater<>(), [&](std::size_t q) { return lower[q]; });
+  constexpr std::size_t most = 3;
+  enough.resize(std::min(most, enough.size()));
+  for (const std::size_t q : enough) {
+    const UncertainInfo& of = results.uncertain[q];
+    ways.push_back({of.name, narrowedText(of, lower[q]), of.stated.empty() ? narrowedText(of, 1) : of.stated});
+  }
+  return ways;
+}
+
 bool isViolated(const RequirementResult& requirement) {
   return requirement.word == Decision::violated || requirement.word == Decision::partly;
 }
@@ -196,15 +235,21 @@ bool isViolated(const RequirementResult& requirement) {
 }  // namespace
 
 std::string violationProbability(const RequirementResult& requirement) {
-  // 1 - p is exact from 0.5 to 1 (Sterbenz) and at 0; else its next neighbour bounds it.
-  const auto complement = [](double p, double towards) {
-    return p == 0 || p >= 0.5 ? 1 - p : std::nextafter(1 - p, towards);
-  };
-  const double least = complement(requirement.probabilityUpper, 0), most = complement(requirement.probabilityLower, 1);
+  const auto [least, most] = violationBounds(requirement);
   if (least == most) return numberText(most, 6);
   if (least == 0) return atMostText(most, 4) + " at most";
   const auto [from, to] = outwardBounds(least, most, 1, 2, 1e-3);
   return fmt::format("{} to {}", from, numberIn(to) >= 1 ? "1" : to);
+}
+
+std::string violationShare(const RequirementResult& requirement) {
+  const auto [least, most] = violationBounds(requirement);
+  // What is multiplied is off by half a unit in the last place at most.
+  const double from = least == 0 ? 0 : std::nextafter(100 * least, 0.0),
+               to = most == 1 ? 100 : std::nextafter(100 * most, 100.0);
+  if (from == 0) return atMostText(to, 3) + " % at most";
+  const auto [lower, upper] = outwardBounds(from, to, 100, 2, 0.1);
+  return lower == upper ? lower + " %" : fmt::format("{} to {} %", lower, numberIn(upper) >= 100 ? "100" : upper);
 }
 
 std::string percentText(double share) { return numberText(std::floor(1000 * share) / 10, 4) + " %"; }
@@ -301,25 +346,25 @@ std::string narrowedText(const UncertainInfo& quantity, double factor) {
 }
 
 std::string aloneSentence(const Results& results, const RequirementResult& requirement) {
-  const std::vector<double>&lower = requirement.aloneLower, &upper = requirement.aloneUpper;
-  if (requirement.word == Decision::met || lower.size() < 2 || lower.size() != results.uncertain.size()) return {};
-  std::vector<std::size_t> enough(lower.size());
-  std::iota(enough.begin(), enough.end(), std::size_t{0});
-  std::erase_if(enough, [&](std::size_t q) { return !(lower[q] > 0); });
-  if (enough.empty())
-    return std::ranges::all_of(upper, [](double factor) { return factor == 0; })
-               ? " No tolerance would do alone, however tight."
-               : "";
-  std::ranges::stable_sort(enough, std::greater<>(), [&](std::size_t q) { return lower[q]; });
-  constexpr std::size_t most = 3;
-  enough.resize(std::min(most, enough.size()));
-  std::vector<std::string> ways;
-  for (const std::size_t q : enough) {
-    const UncertainInfo& of = results.uncertain[q];
-    ways.push_back(fmt::format("{} at {} instead of {}", of.name, narrowedText(of, lower[q]),
-                               of.stated.empty() ? narrowedText(of, 1) : of.stated));
-  }
-  return fmt::format(" One tolerance alone would do: {}.", fmt::join(ways, ", or "));
+  std::string text;
+  for (const WayAlone& way : waysAlone(results, requirement))
+    text += fmt::format("{}{} at {} instead of {}", text.empty() ? " One tolerance alone would do: " : ", or ",
+                        way.name, way.enough, way.stated);
+  if (!text.empty()) return text + ".";
+  return isAloneRefuted(requirement) ? " No tolerance would do alone, however tight." : "";
+}
+
+std::string holdsText(const Results& results, const RequirementResult& requirement) {
+  const bool isFactorKnown = requirement.factor > 0 && requirement.word != Decision::met;
+  std::string text =
+      isFactorKnown ? fmt::format("if all tolerances shrink to {}", percentText(requirement.factor)) : "";
+  const std::vector<WayAlone> ways = waysAlone(results, requirement);
+  for (const WayAlone& way : ways)
+    text += fmt::format("{}{} alone shrinks from {} to {}", text.empty() ? "if " : ", or ", way.name, way.stated,
+                        way.enough);
+  if (ways.empty() && isAloneRefuted(requirement))
+    text += text.empty() ? "by no tolerance alone, however tight" : "; by none alone, however tight";
+  return text;
 }
 
 }  // namespace gamut

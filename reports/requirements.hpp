@@ -51,9 +51,13 @@ Decision wordOfRequirements(const Results& results);
 /// of it.
 std::string shrinkSentence(const RequirementResult& requirement);
 
-/// "± 2.1 %", "± 0.3 deg", "[19.9, 20.1] kN/m": the interval of a quantity that deviates so many times less, in the form
-/// in which the study states it, rounded inward.
+/// "± 2.1 %", "± 0.3 deg", "[19.9, 20.1] kN/m": the interval of a quantity that deviates so many times less, in the
+/// form in which the study states it, rounded inward.
 std::string narrowedText(const UncertainInfo& quantity, double factor);
+
+/// "if all tolerances shrink to 58.3 %, or damper alone from ± 5 % to ± 1.2 %": where it is proved to be met in every
+/// case; empty of one that is met, or where nothing is known.
+std::string holdsText(const Results& results, const RequirementResult& requirement);
 
 /// " One tolerance alone would do: damper at ± 1.2 % instead of ± 5 %.", or that none would; empty where neither is
 /// proved, of one that is met, and of a single quantity.
@@ -61,6 +65,9 @@ std::string aloneSentence(const Results& results, const RequirementResult& requi
 
 /// "0.0694 to 0.0773", "0.002 at most": the probability that it is violated, proved, rounded outward.
 std::string violationProbability(const RequirementResult& requirement);
+
+/// The same as a share of all cases: "6.9 to 7.8 %".
+std::string violationShare(const RequirementResult& requirement);
 
 /// "58.3 %", rounded down.
 std::string percentText(double share);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "reports/approaches.hpp"
@@ -26,13 +27,23 @@ struct Foremost {
   std::optional<Limit> limit;
 };
 
-/// The output with the widest bounds in shares of how far it varies; what comes as far throughout the motion, as what
-/// is conserved does, only where all do.
+/// At how many times nothing finite is known.
+std::size_t gapsIn(const Bounds& bounds, std::size_t output) {
+  std::size_t gaps = 0;
+  for (std::size_t i = 0; i < bounds.lower.times; ++i)
+    gaps += std::isfinite(bounds.lower(i, output)) && std::isfinite(bounds.upper(i, output)) ? 0 : 1;
+  return gaps;
+}
+
+/// The output with the widest bounds in shares of how far it varies, of those that are known at most times; what comes
+/// as far throughout the motion, as what is conserved does, only where all do.
 std::size_t widestOutput(const Results& results) {
   const Bounds* bounds = bestKnown(results);
-  std::size_t widest = 0;
+  std::size_t widest = 0, fewest = std::numeric_limits<std::size_t>::max();
   double greatest = -1;
   bool isOneThroughout = true;  // of the widest
+  for (std::size_t o = 0; bounds != nullptr && o < results.outputs.size(); ++o)
+    if (!isMargin(results, o)) fewest = std::min(fewest, gapsIn(*bounds, o));
   for (std::size_t o = 0; bounds != nullptr && o < results.outputs.size(); ++o) {
     double low = INFINITY, high = -INFINITY, width = 0;
     for (std::size_t i = 0; i < results.time.size(); ++i) {
@@ -50,7 +61,7 @@ std::size_t widestOutput(const Results& results) {
     const bool isThroughout =
         range && whenText(results, range->least) == "throughout" && whenText(results, range->greatest) == "throughout";
     constexpr double telling = 1e-3;  // what varies by less than that leads before nothing
-    if (isMargin(results, o) || (isThroughout && !isOneThroughout)) continue;
+    if (isMargin(results, o) || gapsIn(*bounds, o) > fewest || (isThroughout && !isOneThroughout)) continue;
     const bool displaces = isOneThroughout && !isThroughout && share > telling;
     if (!displaces && share <= greatest) continue;
     greatest = share, widest = o, isOneThroughout = isThroughout || share <= telling;
@@ -279,6 +290,28 @@ std::string shareOfSpread(const Results& results, std::size_t output, std::size_
     nearest = std::abs(s.time[i] - time);
   }
   return share;
+}
+
+std::string leadingCauses(const Results& results, std::size_t output, double time) {
+  if (results.uncertain.size() == 1) return results.uncertain.front().name + ", all that is uncertain";
+  const SensitivityResult& s = results.sensitivity;
+  if (!s.present || s.total.lower.empty()) return {};
+  std::vector<LeadingCause> leading;
+  double nearest = INFINITY;
+  for (std::size_t i = 0; i < s.time.size(); ++i) {
+    if (!(std::abs(s.time[i] - time) < nearest)) continue;
+    std::vector<LeadingCause> found = causesOf(results, output, i);
+    if (found.empty()) continue;
+    leading = std::move(found);
+    nearest = std::abs(s.time[i] - time);
+  }
+  constexpr std::size_t most = 3;
+  constexpr double least = 0.05;
+  std::erase_if(leading, [](const LeadingCause& cause) { return cause.size < least; });
+  leading.resize(std::min(most, leading.size()));
+  std::vector<std::string> parts;
+  for (const LeadingCause& cause : leading) parts.push_back(cause.name + " " + cause.share);
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 Plot essentialPlot(const Results& results, std::size_t output, std::optional<std::size_t> requirement) {

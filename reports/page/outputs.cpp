@@ -114,7 +114,7 @@ std::string rowHtml(const Plot& plot, const PanelRow& row) {
                      escapeHtml(plot.name), cell("unit", "", row.unit), drawSpark(plot),
                      cell("least", "least", row.least), cell("greatest", "greatest", row.greatest),
                      cell("peak", "peak", shortWhen(isLower ? row.whenLeast : row.whenGreatest)),
-                     row.state ? fmt::format("<b class=\"state {}\">{}</b>", row.state->tone, row.state->words)
+                     row.state ? fmt::format("<b class=\"state marked {}\">{}</b>", row.state->tone, row.state->words)
                                : "<b class=\"state\"></b>");
 }
 

@@ -54,6 +54,10 @@ std::optional<OutputState> stateOfOutput(const Results& results, std::size_t out
 std::string whatToDo(const Results& results, const RequirementResult& requirement, std::size_t margin, std::size_t row,
                      bool isOpen);
 
+/// "damper 76 %, body 24 %": the quantities with the greatest shares in an output's spread at a time (s), three at
+/// most; the only one there is; empty where that is not known.
+std::string leadingCauses(const Results& results, std::size_t output, double time);
+
 /// The share of a quantity in an output's spread, at the time next to this one (s) at which it is known: "76 %", "about
 /// 24 %"; empty where it is not.
 std::string shareOfSpread(const Results& results, std::size_t output, std::size_t quantity, double time);

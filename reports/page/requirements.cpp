@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "reports/drawing/axes.hpp"
 #include "reports/drawing/paper.hpp"
@@ -15,6 +17,7 @@
 #include "reports/requirements.hpp"
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
+#include "studies/told.hpp"
 
 namespace gamut {
 namespace {
@@ -78,12 +81,15 @@ std::string marginBar(const Results& results, const RequirementResult& requireme
   Range range;
   range.hold(0);
   std::vector<std::string> words;
-  const std::string& unit = results.outputs[at.margin].unit;
+  const auto info = std::ranges::find(results.margins, at.margin, &MarginInfo::output);
+  const Told told(results.outputs[at.margin].unit, info == results.margins.end() ? "" : info->unit);
   for (const Mark& mark : marks) {
     range.hold(mark.lower);
     range.hold(mark.upper);
-    const auto [lower, upper] = boundsText(mark.lower, mark.upper, 0, 4, 1e-3 * (widest.upper - widest.lower));
-    words.push_back(fmt::format("{} {}", mark.words, inUnit(fmt::format("{} to {}", lower, upper), unit)));
+    const auto [low, high] = told.of(mark.lower, mark.upper);
+    const auto [lower, upper] = boundsText(low, high, 0, 3, told.of(widest.upper - widest.lower));
+    words.push_back(fmt::format("{} {}", mark.words,
+                                inUnit(lower == upper ? lower : fmt::format("{} to {}", lower, upper), told.unit())));
   }
   const Range padded = range.padded(0.06);
   const bool isAbove = isAboveLimit(results, at.margin);
@@ -165,6 +171,39 @@ std::string threeAnswers(const RequirementWords& words) {
       answer("possible", words.possible));
 }
 
+/// How it stands, in a word or two.
+std::string shownState(const RequirementResult& requirement) {
+  return requirement.word == Decision::partly     ? "can fail"
+         : requirement.word == Decision::violated ? "fails"
+         : requirement.word == Decision::met      ? "met"
+         : requirement.isViolatedInSimulation     ? "fails in simulation"
+                                                  : "not decided";
+}
+
+/// A sign and its number, and a number and its unit, on one line.
+std::string unbroken(std::string text) {
+  for (const auto& [loose, firm] : {std::pair<std::string_view, std::string_view>("± ", "±&nbsp;"), {" %", "&nbsp;%"}})
+    for (std::size_t at = 0; (at = text.find(loose, at)) != std::string::npos; at += firm.size())
+      text.replace(at, loose.size(), firm);
+  return text;
+}
+
+/// How likely, how far and when, because of what, and with which tolerances it holds.
+std::string factsList(const Results& results, const RequirementResult& requirement, const ViolationFacts& facts,
+                      const std::optional<Worst>& at) {
+  std::string list;
+  const auto add = [&](const char* head, const std::string& text) {
+    if (!text.empty()) list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", head, unbroken(escapeHtml(text)));
+  };
+  const std::vector<Limit> limits = limitsOf(results);
+  const auto limit = at ? std::ranges::find(limits, at->margin, &Limit::margin) : limits.end();
+  add("How likely", facts.likely);
+  add("It misses", facts.missed);
+  if (limit != limits.end()) add("Because of", leadingCauses(results, limit->output, results.time[at->row]));
+  add("It holds", holdsText(results, requirement));
+  return fmt::format("{}.\n<dl class=\"facts\">\n{}</dl>", escapeHtml(facts.what), list);
+}
+
 }  // namespace
 
 std::optional<OutputState> stateOfOutput(const Results& results, std::size_t output) {
@@ -176,7 +215,7 @@ std::optional<OutputState> stateOfOutput(const Results& results, std::size_t out
     const int severity = severityOf(requirement);
     if (worst && worst->severity <= severity) continue;
     constexpr std::array tones{"violated", "violated", "simulated", "open", "met"};
-    worst = {severity, tones[static_cast<std::size_t>(std::clamp(severity, 0, 4))], stateOf(requirement)};
+    worst = {severity, tones[static_cast<std::size_t>(std::clamp(severity, 0, 4))], shownState(requirement)};
   }
   return worst;
 }
@@ -186,19 +225,22 @@ std::string requirementCards(const Report& report) {
   if (results.requirements.empty()) return {};
   const std::vector<RequirementWords> words = wordsOfRequirements(results);
   const std::vector<std::string> sentences = plainRequirements(results);
+  const std::vector<std::optional<ViolationFacts>> facts = violationFacts(results);
   constexpr std::size_t drawn = 24;  // with pictures
   std::size_t shown = 0;
   std::string html = "<ul class=\"requirements\" aria-label=\"Requirements, the worst first\">\n";
-  for (const std::size_t r : shownRequirements(results)) {
+  for (const std::size_t r : worstFirst(results)) {
     const RequirementResult& requirement = results.requirements[r];
     if (report.verdict.word == Agreement::outside) {
-      html += fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name));
+      html += fmt::format("<li class=\"open\"><b class=\"marked\">contradicted</b> <span>{}</span></li>\n",
+                          escapeHtml(words[r].name));
       continue;
     }
     const std::optional<Worst> at = worstOf(results, requirement);
-    const std::string said = fmt::format("<b>{}</b> <span>{}</span> {}{}{}\n", stateOf(requirement),
-                                         escapeHtml(words[r].name), escapeHtml(sentences[r]),
-                                         shrinkSentence(requirement), escapeHtml(aloneSentence(results, requirement)));
+    const std::string said = fmt::format(
+        "<b class=\"marked\">{}</b> <span>{}</span> {}\n", shownState(requirement), escapeHtml(words[r].name),
+        facts[r] ? factsList(results, requirement, *facts[r], at)
+                 : escapeHtml(sentences[r] + shrinkSentence(requirement) + aloneSentence(results, requirement)));
     html += fmt::format("<li class=\"{}\" id=\"requirement-{}\"{}>", words[r].word, r + 1,
                         at && results.horizon > 0
                             ? fmt::format(" data-instant=\"{}\"", numberText(results.time[at->row], 12))

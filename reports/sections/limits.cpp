@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 
+#include "reports/requirements.hpp"
 #include "reports/sections/contribution.hpp"
 #include "reports/words.hpp"
 #include "studies/told.hpp"
@@ -62,7 +64,7 @@ std::vector<Span> joined(std::vector<Span> spans) {
 void drawRequired(const Results& results, std::size_t output, Plot& plot) {
   Layer layer{.name = "limit",
               .words = "limit of a requirement",
-              .style = {colour::red, 0, 1.6},
+              .style = {colour::red, 0, 1.8, true},  // by more than a colour told from alpha-cuts
               .kind = Layer::Kind::line,
               .isInSpread = false};
   for (const Limit& limit : limitsOf(results)) {
@@ -82,6 +84,14 @@ void drawRequired(const Results& results, std::size_t output, Plot& plot) {
 
 std::vector<Column> requiredColumns(const Results&, const Finding&) { return {}; }
 
+/// The least is the worst: how bad what is known is, how probable, if some values violate it, that it is met, and how
+/// near it comes to its limit.
+using Badness = std::tuple<int, double, double>;
+
+Badness badnessOf(const RequirementResult& requirement, double share) {
+  return {severityOf(requirement), requirement.word == Decision::partly ? requirement.probabilityLower : 0.0, share};
+}
+
 }  // namespace
 
 const Contribution required{requiredColumns, drawRequired};
@@ -94,41 +104,51 @@ std::vector<Limit> limitsOf(const Results& results) {
   return limits;
 }
 
-std::optional<Limit> nearestLimit(const Results& results) {
-  const std::vector<Limit> limits = limitsOf(results);
+std::optional<NearLimit> nearestOf(const Results& results, std::size_t number) {
   const Bounds* bounds = bestKnown(results);
-  std::optional<Limit> nearest;
-  double least = INFINITY;
-  for (std::size_t r = 0; bounds != nullptr && r < results.requirements.size(); ++r) {
-    const RequirementResult& requirement = results.requirements[r];
-    double slack = requirement.isAlways ? INFINITY : -INFINITY;
-    const Limit* decisive = nullptr;
-    for (std::size_t i = 0; i < results.time.size(); ++i) {
-      if (results.horizon > 0 && (results.time[i] < requirement.from || results.time[i] > requirement.until)) continue;
-      const Limit* tightest = nullptr;
-      for (const Limit& limit : limits)
-        if (limit.requirement == r && std::isfinite(bounds->lower(i, limit.margin)) &&
-            (tightest == nullptr || bounds->lower(i, limit.margin) < bounds->lower(i, tightest->margin)))
-          tightest = &limit;
-      if (tightest == nullptr) continue;
-      const double margin = bounds->lower(i, tightest->margin);
-      if (decisive != nullptr && !(requirement.isAlways ? margin < slack : margin > slack)) continue;
-      slack = margin;
-      decisive = tightest;
-    }
-    if (decisive == nullptr) continue;
-    double low = INFINITY, high = -INFINITY;
-    for (std::size_t i = 0; i < results.time.size(); ++i) {
-      low = std::fmin(low, bounds->lower(i, decisive->margin));
-      high = std::fmax(high, bounds->upper(i, decisive->margin));
-    }
-    const double share = slack / std::max(high - low, std::numeric_limits<double>::min());
-    if (nearest && share >= least) continue;
-    least = share;
-    nearest = *decisive;
+  const RequirementResult& requirement = results.requirements[number];
+  std::vector<Limit> limits = limitsOf(results);
+  std::erase_if(limits, [&](const Limit& limit) { return limit.requirement != number; });
+  double slack = requirement.isAlways ? INFINITY : -INFINITY;
+  const Limit* decisive = nullptr;
+  for (std::size_t i = 0; bounds != nullptr && i < results.time.size(); ++i) {
+    if (results.horizon > 0 && (results.time[i] < requirement.from || results.time[i] > requirement.until)) continue;
+    const Limit* tightest = nullptr;
+    for (const Limit& limit : limits)
+      if (std::isfinite(bounds->lower(i, limit.margin)) &&
+          (tightest == nullptr || bounds->lower(i, limit.margin) < bounds->lower(i, tightest->margin)))
+        tightest = &limit;
+    if (tightest == nullptr) continue;
+    const double margin = bounds->lower(i, tightest->margin);
+    if (decisive != nullptr && !(requirement.isAlways ? margin < slack : margin > slack)) continue;
+    slack = margin;
+    decisive = tightest;
   }
-  if (!nearest && !limits.empty()) nearest = limits.front();
-  return nearest;
+  if (decisive == nullptr) return std::nullopt;
+  double low = INFINITY, high = -INFINITY;
+  for (std::size_t i = 0; i < results.time.size(); ++i) {
+    low = std::fmin(low, bounds->lower(i, decisive->margin));
+    high = std::fmax(high, bounds->upper(i, decisive->margin));
+  }
+  return NearLimit{*decisive, slack / std::max(high - low, std::numeric_limits<double>::min())};
+}
+
+std::vector<std::size_t> worstFirst(const Results& results) {
+  std::vector<Badness> badness;
+  for (std::size_t r = 0; r < results.requirements.size(); ++r) {
+    const std::optional<NearLimit> nearest = nearestOf(results, r);
+    badness.push_back(badnessOf(results.requirements[r], nearest ? nearest->share : INFINITY));
+  }
+  std::vector<std::size_t> order = shownRequirements(results);
+  std::ranges::stable_sort(order, {}, [&](std::size_t r) { return badness[r]; });
+  return order;
+}
+
+std::optional<Limit> nearestLimit(const Results& results) {
+  for (const std::size_t r : worstFirst(results))
+    if (const std::optional<NearLimit> nearest = nearestOf(results, r)) return nearest->limit;
+  const std::vector<Limit> limits = limitsOf(results);
+  return limits.empty() ? std::nullopt : std::optional(limits.front());
 }
 
 double instantOf(const Results& results, std::size_t output) {

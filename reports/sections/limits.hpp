@@ -19,7 +19,19 @@ struct Limit {
 /// One for each margin of each requirement.
 std::vector<Limit> limitsOf(const Results& results);
 
-/// An output whose limit is nearest, in shares of how far its margin varies: the first that somebody has to look at.
+/// Where a requirement comes nearest to its limit.
+struct NearLimit {
+  Limit limit;
+  double share = 0;  ///< how near, in shares of how far its margin varies; below zero beyond the limit
+};
+/// Nothing where nothing is known of it.
+std::optional<NearLimit> nearestOf(const Results& results, std::size_t requirement);
+
+/// The requirements that are shown, the worst first: as shownRequirements, but of equals that which comes nearest to
+/// its limit.
+std::vector<std::size_t> worstFirst(const Results& results);
+
+/// The limit of the first of these of which anything is known: what somebody has to look at first.
 std::optional<Limit> nearestLimit(const Results& results);
 
 /// The instant at which an output is looked at first: of the requirement that sets it a limit (of several the nearest),

@@ -101,6 +101,54 @@ TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
               HasSubstr("In an extreme combination of the tolerances (point 1 of the alpha-cuts) it misses"));
 }
 
+TEST(ViolationFacts, AreWhatTheSentenceSays) {
+  Results results = withRequirement({above("a", "1 m", "m")}, Decision::met);
+  EXPECT_FALSE(violationFacts(results).front());
+  results.requirements.front().word = Decision::open;
+  EXPECT_FALSE(violationFacts(results).front());
+  RequirementResult& requirement = results.requirements.front();
+  requirement.word = Decision::partly;
+  EXPECT_EQ(violationFacts(results).front()->what, "\u201ca\u201d does not stay above 1 m");
+  EXPECT_EQ(violationFacts(results).front()->likely, "");
+  EXPECT_EQ(violationFacts(results).front()->missed, "");
+  requirement.probabilityLower = 0.9227;
+  requirement.probabilityUpper = 0.9306;
+  requirement.samples = 4096;
+  requirement.violating = 307;
+  requirement.violation.front() = 2.3;
+  requirement.violationSample = 17;
+  requirement.violationTime = 0.5;
+  requirement.violationLower = requirement.violationUpper = -0.25;
+  EXPECT_EQ(violationFacts(results).front()->likely,
+            "6.94 to 7.74 % of all cases, proved; 307 of 4096 simulated cases");
+  EXPECT_EQ(violationFacts(results).front()->missed, "the limit by 0.25 rad at 0.5 s, in sample 17");
+  requirement.probabilityUpper = 1;
+  EXPECT_THAT(violationFacts(results).front()->likely, StartsWith("7.74 % at most of all cases, proved"));
+  requirement.probabilityLower = 0;  // nothing is known
+  EXPECT_EQ(violationFacts(results).front()->likely, "307 of 4096 simulated cases");
+  requirement.probabilityUpper = 0.004;
+  EXPECT_THAT(violationFacts(results).front()->likely,
+              StartsWith("in all cases but for a probability of 0.0041 at most"));
+  requirement.word = Decision::violated;
+  requirement.violating = 4096;
+  EXPECT_EQ(violationFacts(results).front()->likely, "always; 4096 of 4096 simulated cases");
+}
+
+/// Outward: a share of all cases that is told holds what is proved of it.
+TEST(ViolationFacts, RoundSharesOutward) {
+  RequirementResult requirement;
+  for (const double share : {1e-9, 3e-5, 0.0001, 0.0123, 0.07, 0.1, 0.3333, 0.5, 0.77, 0.9999})
+    for (const double gap : {0.0, 1e-7, 0.0005, 0.01}) {
+      requirement.probabilityLower = std::max(0.0, 1 - share - gap);
+      requirement.probabilityUpper = 1 - share;
+      const std::string text = violationShare(requirement);
+      const double from = std::stod(text), to = std::stod(text.substr(text.find(" to ") + 4));
+      if (text.find(" to ") == std::string::npos) continue;
+      EXPECT_LE(from, 100 * (1 - requirement.probabilityUpper)) << text;
+      EXPECT_GE(to, 100 * (1 - requirement.probabilityLower)) << text;
+    }
+}
+
 TEST(PlainRequirement, TellsAMissInTheMarginsUnitAndInThatOfTheLimit) {
   const auto sentence = [](std::vector<MarginInfo> margins, const char* unit = "rad") {
     Results results = withRequirement(std::move(margins), Decision::partly);
@@ -287,16 +335,16 @@ TEST(RequirementWords, TellANarrowerToleranceAsItIsStated) {
   EXPECT_EQ(narrowedText(quantity, 0.5), "± 75 N s/m");
   quantity.stated = "[1350 N s/m, 1650 N s/m]";
   EXPECT_EQ(narrowedText(quantity, 0.5), "[1425, 1575] N s/m");
-  EXPECT_EQ(narrowedText(quantity, 0.0128), "[1498.08, 1501.92] N s/m");
+  EXPECT_EQ(narrowedText(quantity, 0.01285), "[1498.08, 1501.92] N s/m");
   quantity.upper = 1560;
   quantity.stated = "+ 4 / - 10 %";
   EXPECT_EQ(narrowedText(quantity, 0.5), "[1425, 1530] N s/m");
   UncertainInfo angle{"start", "q", "rad", -0.0174532925199433, 0, 0.0174532925199433, "uniform", "triangular"};
   angle.told = "deg";
   angle.stated = "± 1 deg";
-  EXPECT_EQ(narrowedText(angle, 0.3), "± 0.3 deg");
+  EXPECT_EQ(narrowedText(angle, 0.3001), "± 0.3 deg");
   angle.stated.clear();
-  EXPECT_EQ(narrowedText(angle, 0.3), "± 0.3 deg");
+  EXPECT_EQ(narrowedText(angle, 0.3001), "± 0.3 deg");
 }
 
 TEST(RequirementWords, SayWhichToleranceWouldDoAlone) {
@@ -311,12 +359,22 @@ TEST(RequirementWords, SayWhichToleranceWouldDoAlone) {
   EXPECT_EQ(aloneSentence(results, requirement), "");  // nothing is known
   requirement.aloneUpper.assign(4, 0);
   EXPECT_EQ(aloneSentence(results, requirement), " No tolerance would do alone, however tight.");
+  EXPECT_EQ(holdsText(results, requirement), "by no tolerance alone, however tight");
+  requirement.factor = 0.58399;
+  EXPECT_EQ(holdsText(results, requirement), "if all tolerances shrink to 58.3 %; by none alone, however tight");
   requirement.aloneLower = {0.25, 0.5, 0, 0};
   requirement.aloneUpper = {0.25, 0.75, 0, 1};
   EXPECT_EQ(aloneSentence(results, requirement),
             " One tolerance alone would do: damper at ± 2 % instead of +/- 4 %, or spring at ± 1 % instead of ± 4 %.");
+  EXPECT_EQ(
+      holdsText(results, requirement),
+      "if all tolerances shrink to 58.3 %, or damper alone shrinks from +/- 4 % to ± 2 %, or spring alone shrinks "
+      "from ± 4 % to ± 1 %");
+  requirement.factor = 0;
+  EXPECT_THAT(holdsText(results, requirement), StartsWith("if damper alone shrinks from"));
   requirement.word = Decision::met;
   EXPECT_EQ(aloneSentence(results, requirement), "");
+  EXPECT_EQ(holdsText(results, requirement), "");
 }
 
 TEST(PlainSummary, CountsRequirements) {

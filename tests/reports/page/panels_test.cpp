@@ -84,14 +84,15 @@ TEST(Cards, DrawMarginsAsTheirOutputsLie) {
 TEST(Panels, TellHowTheRequirementOfAnOutputStands) {
   Results results = limited();
   EXPECT_THAT(rowOf(renderReport(results), 0),
-              AllOf(HasSubstr("<b class=\"state violated\">violated</b>"), HasSubstr("data-state=\"1\"")));
+              AllOf(HasSubstr("<b class=\"state marked violated\">can fail</b>"), HasSubstr("data-state=\"1\"")));
   results.requirements[0].word = Decision::open;
-  EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state open\">open</b>"));
+  EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state marked open\">not decided</b>"));
   results.requirements[0].isViolatedInSimulation = true;
-  EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state simulated\">violated in simulation</b>"));
+  EXPECT_THAT(rowOf(renderReport(results), 0),
+              HasSubstr("<b class=\"state marked simulated\">fails in simulation</b>"));
   results.requirements[0].isViolatedInSimulation = false;
   results.requirements[0].word = Decision::met;
-  EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state met\">met</b>"));
+  EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state marked met\">met</b>"));
   results.comparison.verdict = Agreement::outside;
   EXPECT_THAT(rowOf(renderReport(results), 0), HasSubstr("<b class=\"state\"></b>"));
 }

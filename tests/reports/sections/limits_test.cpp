@@ -7,6 +7,7 @@
 
 #include "reports/drawing/paper.hpp"
 #include "reports/report.hpp"
+#include "reports/verdict.hpp"
 #include "studies/words.hpp"
 #include "tests/reports/example_results.hpp"
 #include "tests/reports/page_text.hpp"
@@ -145,6 +146,44 @@ TEST(Limits, NearestIsThatWithTheLeastRoomInSharesOfItsVariation) {
   EXPECT_EQ(nearestLimit(results)->requirement, 2u);
   results.requirements[2].isAlways = false;  // met sooner or later, with much room
   EXPECT_EQ(nearestLimit(results)->requirement, 1u);
+}
+
+/// What fails leads, however near others come to their limits; of what may fail, the likeliest.
+TEST(Limits, NearestIsThatOfTheWorstRequirement) {
+  Results results = example::pendulum(61, 2);
+  require(results, "near", 1, 1, -2.5);
+  require(results, "far", 0, 1, -20);
+  EXPECT_THAT(worstFirst(results), ::testing::ElementsAre(0, 1));
+  results.requirements[1].word = Decision::partly;
+  EXPECT_THAT(worstFirst(results), ::testing::ElementsAre(1, 0));
+  EXPECT_EQ(nearestLimit(results)->requirement, 1u);
+  results.requirements[0].word = Decision::partly;
+  results.requirements[0].probabilityLower = 0.5;
+  results.requirements[1].probabilityLower = 0.75;
+  EXPECT_THAT(worstFirst(results), ::testing::ElementsAre(0, 1));
+  results.requirements[0].word = Decision::met;
+  results.requirements[1].word = Decision::violated;
+  EXPECT_THAT(worstFirst(results), ::testing::ElementsAre(1, 0));
+  for (Bounds* bounds : {&results.interval.at, &results.interval.over})
+    for (std::size_t i = 0; i < 61; ++i) bounds->lower(i, 3) = bounds->upper(i, 3) = std::nan("");
+  EXPECT_FALSE(nearestOf(results, 1));
+  EXPECT_THAT(worstFirst(results), ::testing::ElementsAre(1, 0));  // the worst news, though nothing more is known of it
+  EXPECT_EQ(nearestLimit(results)->requirement, 0u);               // but there is nothing to draw
+}
+
+/// An output with bounds at some times alone leads only where no other is known at more.
+TEST(Report, LeadsWithAnOutputThatIsKnownThroughout) {
+  Results results = example::pendulum(61, 2);
+  for (Bounds* bounds : {&results.interval.at, &results.interval.over})
+    for (std::size_t i = 0; i < 61; ++i) {
+      bounds->lower(i, 1) -= 1;
+      bounds->upper(i, 1) += 1;
+    }
+  EXPECT_THAT(leadOf(results, judge(results)), HasSubstr("elbow angle"));
+  results.interval.at.upper(40, 1) = results.interval.over.upper(40, 1) = INFINITY;
+  EXPECT_THAT(leadOf(results, judge(results)), HasSubstr("shoulder angle"));
+  results.interval.at.upper(40, 0) = results.interval.over.upper(40, 0) = INFINITY;
+  EXPECT_THAT(leadOf(results, judge(results)), HasSubstr("elbow angle"));
 }
 
 TEST(Limits, AreDrawnInTheFirstPlotAndReplaceTheMarginsPlots) {
