@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -112,7 +114,71 @@ class Spark {
   Pen pen_;
 };
 
+/// A density, but for a factor, or a membership, as its numbers say.
+class ShapeCurve {
+ public:
+  ShapeCurve(const Results& results, const UncertainInfo& quantity, ShapeKind kind) : name_(quantity.shape(kind)) {
+    for (const ShapeInfo& number : results.shapes) {
+      if (number.quantity != quantity.name || number.shape != kind) continue;
+      isOne_ = isOne_ && !number.name.ends_with(", at most");
+      numbers_[number.name] = number.value;
+    }
+  }
+
+  bool isKnown() const {
+    constexpr std::array known{"uniform", "triangular", "trapezoidal", "normal", "gaussian", "exponential"};
+    return isOne_ && numbers_.contains("lower") && numbers_.contains("upper") &&
+           std::ranges::find(known, name_) != known.end();
+  }
+
+  double at(double x) const {
+    const double lower = of("lower"), upper = of("upper");
+    if (x < lower || x > upper) return 0;
+    if (name_ == "normal") return bell((x - of("mean")) / of("deviation"));
+    if (name_ == "gaussian") return bell((x - of("centre")) / of("deviation"));
+    if (name_ == "exponential") return std::exp((lower - x) / of("mean"));
+    if (name_ == "trapezoidal") return between(x, lower, of("left"), of("right"), upper);
+    if (name_ == "triangular") return between(x, lower, top(), top(), upper);
+    return 1;
+  }
+
+ private:
+  double of(const std::string& name) const {
+    const auto found = numbers_.find(name);
+    return found == numbers_.end() ? NAN : found->second;
+  }
+  double top() const { return of(numbers_.contains("mode") ? "mode" : "apex"); }
+  static double bell(double x) { return std::exp(-0.5 * x * x); }
+  static double between(double x, double lower, double left, double right, double upper) {
+    return x < left ? (x - lower) / (left - lower) : x > right ? (upper - x) / (upper - right) : 1;
+  }
+
+  std::string name_;
+  bool isOne_ = true;
+  std::map<std::string, double> numbers_;
+};
+
 }  // namespace
+
+std::string drawShape(const Results& results, const UncertainInfo& quantity, ShapeKind kind) {
+  const ShapeCurve curve(results, quantity, kind);
+  if (!curve.isKnown() || !(quantity.lower < quantity.upper)) return {};
+  constexpr int points = 96;
+  std::vector<double> heights;
+  for (int i = 0; i <= points; ++i)
+    heights.push_back(curve.at(quantity.lower + (quantity.upper - quantity.lower) * i / points));
+  const double most = *std::ranges::max_element(heights), foot = sparkHeight - sparkMargin;
+  if (!(most > 0) || !std::isfinite(most)) return {};
+  std::string path = fmt::format("M{} {}", sparkMargin, foot);
+  for (int i = 0; i <= points; ++i)
+    path += fmt::format("L{:.1f} {:.1f}", sparkMargin + (sparkWidth - 2 * sparkMargin) * i / points,
+                        foot - (foot - sparkMargin) * heights[static_cast<std::size_t>(i)] / most);
+  return fmt::format(
+      "<svg class=\"spark\" viewBox=\"0 0 {} {}\" aria-hidden=\"true\"><path class=\"shape-{}\" d=\"{}L{:.1f} "
+      "{}\"/></svg>",
+      sparkWidth, sparkHeight, kind == ShapeKind::distribution ? "distribution" : "membership", path,
+      sparkWidth - sparkMargin, foot);
+}
 
 /// What is best known as two lines, of which extremes are kept: bounds that prove nothing need not lie outside.
 std::string drawSpark(const Plot& plot) {

@@ -10,6 +10,7 @@
 #include <ranges>
 #include <utility>
 
+#include "reports/drawing/spark.hpp"
 #include "reports/page/table.hpp"
 #include "reports/requirements.hpp"
 #include "reports/sections/limits.hpp"
@@ -22,15 +23,26 @@ namespace gamut {
 namespace {
 
 std::string uncertainTable(const Results& results, std::size_t rows) {
-  TableText table("Uncertain quantities", {"name", "quantity", "interval", "nominal", "probable", "possible"});
+  const bool isStated = std::ranges::any_of(results.uncertain, [](const auto& info) { return !info.stated.empty(); });
+  std::vector<std::string> heads{"name", "quantity", "interval", "nominal", "probable", "possible"};
+  if (isStated) heads.insert(heads.begin() + 2, "as stated");
+  TableText table("Uncertain quantities", heads);
   for (const UncertainInfo& info : results.uncertain | std::views::take(rows)) {
     const int digits =
         std::max(6, digitsFor(std::max(std::abs(info.lower), std::abs(info.upper)), info.upper - info.lower, 4));
     const Told told(info);
     const auto [lower, upper] = told.of(info.lower, info.upper);
-    table.row(info.name, {headingOf(info.quantity, told.unit()), rangeText(lower, upper, digits),
-                          numberText(told.of(info.nominal), digits), shapeText(results, info, ShapeKind::distribution),
-                          shapeText(results, info, ShapeKind::membership)});
+    std::vector<std::string> cells{headingOf(info.quantity, told.unit()), rangeText(lower, upper, digits),
+                                   numberText(told.of(info.nominal), digits),
+                                   shapeText(results, info, ShapeKind::distribution),
+                                   shapeText(results, info, ShapeKind::membership)};
+    std::vector<std::string> drawings{"", "", "", drawShape(results, info, ShapeKind::distribution),
+                                      drawShape(results, info, ShapeKind::membership)};
+    if (isStated) {
+      cells.insert(cells.begin() + 1, info.stated);
+      drawings.insert(drawings.begin(), "");
+    }
+    table.row(info.name, cells, drawings);
   }
   return table.html() + hintOfRows(results.uncertain.size(), rows);
 }

@@ -19,8 +19,14 @@ TableText::TableText(std::string_view caption, const std::vector<std::string>& h
 }
 
 void TableText::row(std::string_view name, const std::vector<std::string>& cells) {
+  row(name, cells, std::vector<std::string>(cells.size()));
+}
+
+void TableText::row(std::string_view name, const std::vector<std::string>& cells,
+                    const std::vector<std::string>& drawings) {
   html_ += fmt::format("<tr><th scope=\"row\">{}</th>", escapeHtml(name));
-  for (const std::string& cell : cells) html_ += fmt::format("<td>{}</td>", escapeHtml(cell));
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    html_ += fmt::format("<td>{}{}</td>", drawings[i], escapeHtml(cells[i]));
   html_ += "</tr>\n";
 }
 

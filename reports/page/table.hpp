@@ -13,6 +13,8 @@ class TableText {
   TableText(std::string_view caption, const std::vector<std::string>& heads);
 
   void row(std::string_view name, const std::vector<std::string>& cells);
+  /// With a drawing, as it is, before the words of a cell; as many as cells.
+  void row(std::string_view name, const std::vector<std::string>& cells, const std::vector<std::string>& drawings);
   std::string html() const { return html_ + "</tbody></table></div>\n"; }
 
  private:

@@ -293,6 +293,18 @@ TEST(Report, TellsQuantitiesInTheUnitsThatTheStudyStates) {
                                HasSubstr("first angle 134.7131 deg"), Not(HasSubstr("2.35"))));
 }
 
+TEST(Report, ShowsQuantitiesAsTheStudyStatesThem) {
+  Results results = example::pendulum(2, 1);
+  EXPECT_THAT(renderReport(results), Not(HasSubstr("as stated")));  // of an older file
+  results.uncertain[0].stated = "± <1> %";
+  for (const auto& [kind, top] : {std::pair(ShapeKind::distribution, "mode"), {ShapeKind::membership, "apex"}})
+    for (const auto& [name, value] : {std::pair("lower", 2.2777), {"upper", 2.3223}, {top, 2.3}})
+      results.shapes.push_back({"first angle", kind, name, value, "rad"});
+  EXPECT_THAT(renderReport(results),
+              ::testing::AllOf(HasSubstr("<th scope=\"col\">as stated</th>"), HasSubstr("<td>± &lt;1&gt; %</td>"),
+                               HasSubstr("class=\"shape-distribution\""), HasSubstr("class=\"shape-membership\"")));
+}
+
 TEST(Report, SaysHowManySamplesTheResultsHoldOneByOne) {
   Results results = example::pendulum(2, 1);
   results.stochastic.kept = {true, 4e6, 1, 18, {}, {}, {}, {}};

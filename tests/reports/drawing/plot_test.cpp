@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "reports/drawing/axes.hpp"
 #include "reports/drawing/paper.hpp"
 #include "reports/drawing/screen.hpp"
+#include "reports/drawing/spark.hpp"
 #include "reports/drawing/style.hpp"
 #include "reports/sections/contribution.hpp"
 #include "tests/reports/example_results.hpp"
@@ -234,6 +238,53 @@ TEST(Layer, OrderIsFromBackToFront) {
   std::vector<std::string> names;
   for (const Layer& layer : plotOf(example::pendulum(), 0).layers) names.push_back(layer.name);
   EXPECT_THAT(names, ElementsAre("tube", "guaranteed", "possible", "probable", "median", "sampled"));
+}
+
+/// Of the greatest, at a share of the way across the interval; of what is drawn of one quantity of these numbers.
+double heightAt(double share, const std::string& name, ShapeKind kind, const std::map<std::string, double>& numbers) {
+  Results results;
+  const bool isDistribution = kind == ShapeKind::distribution;
+  results.uncertain = {{"q", "q", "m", 1, 2, 5, isDistribution ? name : "", isDistribution ? "" : name}};
+  for (const auto& [key, value] : numbers) results.shapes.push_back({"q", kind, key, value, "m"});
+  const std::string svg = drawShape(results, results.uncertain[0], kind);
+  if (svg.empty()) return std::nan("");
+  std::istringstream path(svg.substr(svg.find("d=\"M") + 4));
+  double x = 0, y = 0, last = 20;
+  for (char letter = 'L'; path >> x >> y; path >> letter)
+    if (x <= 2 + 92 * share + 0.05) last = y;
+  return (20 - last) / 18;
+}
+
+/// By the formulas of the densities.
+TEST(ShapeDrawing, IsAsHighAsTheShape) {
+  constexpr ShapeKind probable = ShapeKind::distribution, possible = ShapeKind::membership;
+  constexpr double near = 0.03;  // a pixel is a twentieth of what is drawn
+  for (const int step : {2, 10, 24, 48, 72, 94}) {
+    const double share = step / 96.0;
+    SCOPED_TRACE(share);
+    const double x = 1 + 4 * share;
+    EXPECT_NEAR(heightAt(share, "uniform", probable, {{"lower", 1}, {"upper", 4}}), x <= 4 ? 1 : 0, near);
+    EXPECT_NEAR(heightAt(share, "triangular", probable, {{"lower", 1}, {"upper", 5}, {"mode", 2}}),
+                x < 2 ? x - 1 : (5 - x) / 3, near);
+    EXPECT_NEAR(heightAt(share, "triangular", possible, {{"lower", 1}, {"upper", 5}, {"apex", 4}}),
+                x < 4 ? (x - 1) / 3 : 5 - x, near);
+    EXPECT_NEAR(heightAt(share, "trapezoidal", possible, {{"lower", 1}, {"upper", 5}, {"left", 2}, {"right", 3}}),
+                x < 2   ? x - 1
+                : x > 3 ? (5 - x) / 2
+                        : 1,
+                near);
+    EXPECT_NEAR(heightAt(share, "normal", probable,
+                         {{"lower", 1}, {"upper", 5}, {"mean", 3}, {"deviation", 1}, {"cut_off", 0.05}}),
+                std::exp(-0.5 * (x - 3) * (x - 3)), near);
+    EXPECT_NEAR(heightAt(share, "gaussian", possible, {{"lower", 1}, {"upper", 5}, {"centre", 3}, {"deviation", 1}}),
+                std::exp(-0.5 * (x - 3) * (x - 3)), near);
+    EXPECT_NEAR(heightAt(share, "exponential", probable, {{"lower", 1}, {"upper", 5}, {"mean", 2}}),
+                std::exp((1 - x) / 2), near);
+  }
+  EXPECT_TRUE(std::isnan(heightAt(0.5, "normal", probable,
+                                  {{"lower", 1}, {"upper", 5}, {"mean", 3}, {"mean, at most", 4}, {"deviation", 1}})));
+  EXPECT_TRUE(std::isnan(heightAt(0.5, "beta", probable, {{"lower", 1}, {"upper", 5}, {"a", 2}, {"b", 2}})));
+  EXPECT_TRUE(std::isnan(heightAt(0.5, "uniform", probable, {})));  // nothing is known of it
 }
 
 }  // namespace
