@@ -313,28 +313,92 @@ std::string scaleBar(const View& view) {
       left, right, y, y - 3, 0.5 * (left + right), y - 10, numberText(length * factor, 6), unit);
 }
 
+/// The nominal place of a point at the start.
+Place startOf(const PictureResult& machine, std::size_t point) {
+  return placeOf(machine.places.nominal, 0, machine.points.size(), point);
+}
+
+/// The farthest two of them are apart.
+double sizeOf(const PictureResult& machine) {
+  double size = 0;
+  for (std::size_t k = 0; k < machine.points.size(); ++k)
+    for (std::size_t l = 0; l < k; ++l) size = std::fmax(size, norm(minus(startOf(machine, k), startOf(machine, l))));
+  return size;
+}
+
+/// The farthest that a nominal point, or one of a sample, comes from where it stands at the start.
+double travelOf(const PictureResult& machine) {
+  double travel = 0;
+  for (const std::vector<double>* places : {&machine.places.nominal, &machine.places.samples})
+    for (std::size_t i = 0; 3 * i < places->size(); ++i)
+      travel = std::fmax(travel, norm(minus(placeOf(*places, 0, 0, i), startOf(machine, i % machine.points.size()))));
+  return travel;
+}
+
+/// 1, 2, 5, 10, 20, …: so that the farthest way is seen, and no longer than a tenth of the machine.
+double magnificationOf(const PictureResult& machine) {
+  constexpr double seen = 0.03, drawn = 0.1, nothing = 1e-7;  // of the size
+  constexpr std::size_t most = 400;                           // points: all pairs are looked at
+  if (machine.points.empty() || machine.points.size() > most || machine.places.time.size() < 2) return 1;
+  const double share = travelOf(machine) / sizeOf(machine);
+  if (!(share < seen) || !(share > nothing)) return 1;
+  const double wanted = drawn / share, power = std::pow(10, std::floor(std::log10(wanted)));
+  return std::round(wanted >= 5 * power ? 5 * power : wanted >= 2 * power ? 2 * power : power);
+}
+
+/// All ways from where points stand at the start so many times as long.
+PictureResult magnified(PictureResult machine, double factor) {
+  const PictureResult original = machine;
+  Places& places = machine.places;
+  for (std::vector<double>* list : {&places.nominal, &places.samples, &places.lower, &places.upper})
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const double start = startOf(original, i / 3 % original.points.size())[i % 3];
+      (*list)[i] = start + factor * ((*list)[i] - start);
+    }
+  for (double& sag : places.sag) sag *= factor;
+  return machine;
+}
+
 const char* tagOf(Shape::Form form) {
   using enum Shape::Form;
   return form == circle ? "circle" : form == name || form == letter ? "text" : form == sign ? "g" : "path";
 }
 
-}  // namespace
-
-Scene sceneOf(const PictureResult& machine) { return Builder(machine).scene(); }
-
-std::string drawScene(const Scene& scene, const std::string& label) {
+template <class IsDrawn>
+std::string drawShapes(const Scene& scene, std::size_t row, const std::string& label, const IsDrawn& isDrawn) {
   const View& view = scene.view;
   std::string svg =
       fmt::format("<svg class=\"drawing machine{}\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">\n{}\n",
                   scene.isDense ? " dense" : "", view.width, view.height, escapeHtml(label), titleOf(label));
   for (const Shape& shape : scene.shapes) {
-    const auto attributes = attributesOf(scene, shape, {0, view.right, view.up});
+    if (!isDrawn(shape)) continue;
+    const auto attributes = attributesOf(scene, shape, {row, view.right, view.up});
     svg += fmt::format("<{} {} data-shape=\"{}\"", tagOf(shape.form), shape.look, shape.layer);
     for (const auto& [name, text] : attributes) svg += fmt::format(" {}=\"{}\"", name, text);
     svg += fmt::format("{}>{}</{}>\n", attributes.empty() ? " visibility=\"hidden\"" : "", shape.content,
                        tagOf(shape.form));
   }
   return svg + scaleBar(view) + "</svg>\n";
+}
+
+}  // namespace
+
+Scene sceneOf(const PictureResult& machine) {
+  const double factor = magnificationOf(machine);
+  Scene scene = factor > 1 ? Builder(magnified(machine, factor)).scene() : Builder(machine).scene();
+  scene.magnification = factor;
+  return scene;
+}
+
+std::string drawScene(const Scene& scene, const std::string& label) {
+  return drawShapes(scene, 0, label, [](const Shape&) { return true; });
+}
+
+std::string drawPose(const Scene& scene, std::size_t row, const std::string& label) {
+  using enum Shape::Form;
+  return drawShapes(scene, row, label, [](const Shape& shape) {
+    return shape.form != swept && shape.form != name && shape.form != arrow && shape.form != letter;
+  });
 }
 
 bool isEnclosed(const PictureResult& machine) {

@@ -53,6 +53,7 @@ struct Scene {
   std::vector<std::pair<std::size_t, std::size_t>> links;  ///< that a sample is drawn by
   std::vector<std::size_t> moving;                         ///< points whose enclosures may be seen
   bool isDense = false;                                    ///< joints are drawn small, on paper and on the screen
+  double magnification = 1;                                ///< how many times as large motions are drawn
   std::vector<double> nominal, axes;
   std::vector<double> samples;            ///< row after row of sample after sample
   std::vector<double> lower, upper, sag;  ///< rounded outward

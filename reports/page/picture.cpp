@@ -35,8 +35,30 @@ std::string keysOf(const Results& results) {
 std::string caption(const PictureResult& machine, const Scene& scene) {
   std::string words = scene.view.isSideView ? "Side view" : "View from above and aside";
   words += ", at the start";
+  if (scene.magnification > 1)
+    words += fmt::format(
+        "; ways from there are drawn {:g} times as long as they are, and what encloses points so many "
+        "times as wide",
+        scene.magnification);
   if (!machine.why.empty()) words += "; " + machine.why;
   return words + ".";
+}
+
+/// On paper, where nothing moves: six times, evenly from the start to the end.
+std::string posesOf(const Scene& scene) {
+  constexpr std::size_t poses = 6;
+  if (scene.time.size() < 2) return {};
+  std::string html = "<div class=\"poses\">\n";
+  std::size_t last = scene.time.size();
+  for (std::size_t i = 0; i < poses; ++i) {
+    const std::size_t row = i * (scene.time.size() - 1) / (poses - 1);
+    if (row == last) continue;
+    last = row;
+    const std::string when = timeText(scene.time[row], 4);
+    html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+                        drawPose(scene, row, "The machine at " + when), when);
+  }
+  return html + "</div>\n";
 }
 
 }  // namespace
@@ -56,7 +78,7 @@ std::string machineSection(const Report& report) {
       fmt::format("The machine at the start: {}, {}", countText(static_cast<long long>(machine.points.size()), "point"),
                   countText(static_cast<long long>(machine.parts.size()), "part"));
   return "<div class=\"picture\">\n" + keysOf(report.results) + "<figure>" + drawScene(scene, label) + "<figcaption>" +
-         escapeHtml(caption(machine, scene)) + "</figcaption></figure>\n</div>\n" +
+         escapeHtml(caption(machine, scene)) + "</figcaption></figure>\n</div>\n" + posesOf(scene) +
          fmt::format("<script type=\"application/json\" id=\"machine\">{}</script>\n", sceneData(scene));
 }
 

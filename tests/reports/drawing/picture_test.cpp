@@ -176,9 +176,68 @@ TEST(MachinePicture, TellsMassesInTheUnitsThatTheStudyStates) {
 
 TEST(MachinePicture, StandsOnThePageBeforeAnyScript) {
   const std::string page = renderReport(example::machine());
-  EXPECT_EQ(count(page, "<svg class=\"drawing machine\""), 1u);
+  EXPECT_EQ(count(page, "<svg class=\"drawing machine\""), 1u + 6u);  // and six for paper
   EXPECT_THAT(page, AllOf(HasSubstr("<h2>The machine</h2>"), HasSubstr("Side view, at the start."),
                           HasSubstr("guaranteed region from 0 s to 3 s"), HasSubstr("2 samples")));
+}
+
+/// Of a machine of 1 m a way of 2 mm is seen 50 times as long, and so is what encloses it; of 50 mm it is as it is.
+TEST(MachinePicture, MagnifiesWhatWouldHardlyBeSeen) {
+  const auto swung = [](double way) {
+    PictureResult m = moving({{0, 0, 0}, {0, way, 0}});
+    m.points.push_back({"far", false, false});
+    Places& p = m.places;
+    p.nominal = {0, 0, 0, 0, 0, 1, 0, way, 0, 0, 0, 1};
+    p.lower = {0, 0, 0, 0, 0, 1, 0, 0.75 * way, 0, 0, 0, 1};
+    p.upper = {0, 0, 0, 0, 0, 1, 0, 1.25 * way, 0, 0, 0, 1};
+    p.sag.assign(12, 0.25 * way);
+    return sceneOf(m);
+  };
+  for (const auto& [way, factor] : {std::pair(0.002, 50.0),
+                                    {0.0019, 50.0},
+                                    {0.0011, 50.0},
+                                    {0.0009, 100.0},
+                                    {2e-6, 50000.0},
+                                    {0.029, 2.0},
+                                    {0.05, 1.0},
+                                    {1.0, 1.0},
+                                    {1e-9, 1.0},
+                                    {0.0, 1.0}}) {
+    SCOPED_TRACE(way);
+    const Scene scene = swung(way);
+    EXPECT_EQ(scene.magnification, factor);
+    const double unit = scene.view.scale / Scene::unit,
+                 moved = scene.at(scene.nominal, 1, 0)[1] - scene.at(scene.nominal, 0, 0)[1];
+    EXPECT_NEAR(moved, factor * way * unit, 1);
+    EXPECT_LE(scene.at(scene.lower, 1, 0)[1] - scene.at(scene.nominal, 0, 0)[1], 0.75 * factor * way * unit + 0.5);
+    EXPECT_GE(scene.at(scene.upper, 1, 0)[1] - scene.at(scene.nominal, 0, 0)[1], 1.25 * factor * way * unit - 0.5);
+    EXPECT_GE(scene.at(scene.sag, 1, 0)[1], 0.25 * factor * way * unit - 1e-9);
+    EXPECT_EQ(scene.at(scene.nominal, 1, 1), scene.at(scene.nominal, 0, 1));  // what stands still, does
+  }
+}
+
+TEST(MachinePicture, SaysThatItMagnifies) {
+  Results results = example::machine();
+  EXPECT_THAT(renderReport(results), Not(HasSubstr("times as long as they are")));
+  std::vector<double>& places = results.picture.places.nominal;
+  for (std::size_t i = 12; i < places.size(); ++i) places[i] = places[i % 12] + 1e-3 * (places[i] - places[i % 12]);
+  results.picture.places.samples = places;
+  results.picture.places.sample = {0};
+  EXPECT_THAT(renderReport(results), ContainsRegex("; ways from there are drawn [1-9]0+ times as long as they are"));
+}
+
+/// On paper nothing moves: six times, each with the machine where it is then.
+TEST(MachinePicture, StandsAtSixTimesOnPaper) {
+  const std::string page = renderReport(example::machine(false, 11));
+  const auto from = page.find("<div class=\"poses\">"), to = page.find("</div>", from);
+  ASSERT_NE(from, std::string::npos);
+  const std::string poses = page.substr(from, to - from);
+  EXPECT_EQ(count(poses, "<svg"), 6u);
+  for (const char* when : {"0 s", "0.6 s", "1.2 s", "1.8 s", "2.4 s", "3 s"})
+    EXPECT_THAT(poses, HasSubstr(std::string("<figcaption>") + when + "</figcaption>"));
+  EXPECT_EQ(count(poses, "class=\"swept\""), 0u);
+  EXPECT_EQ(count(poses, "class=\"mass\""), 12u);
+  EXPECT_EQ(count(renderReport(example::machine(false, 3)), "<figcaption>1.5 s</figcaption>"), 1u);
 }
 
 TEST(MachinePicture, IsLeftOutWhereThereIsNoMachine) {
