@@ -23,7 +23,7 @@ struct UncertainInfo {
   /// By how much the probability of an event exceeds its possibility, at most, as a bound that is up to 1/256 too
   /// great; 0 of what varies in time, which has neither.
   double inconsistency = 0;
-  std::string told = {};  ///< unit in which people are told of it, as the study states it; empty: the SI unit
+  std::string told = {};    ///< unit in which people are told of it, as the study states it; empty: the SI unit
   std::string stated = {};  ///< the interval as the study writes it: "± 2 %"; empty where it follows from shapes
 
   const std::string& shape(ShapeKind kind) const { return kind == ShapeKind::distribution ? distribution : membership; }

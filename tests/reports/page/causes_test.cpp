@@ -118,9 +118,9 @@ TEST(Causes, SayWhichToleranceWouldDoAlone) {
   results.requirements[0].aloneLower = {0.501, 0, 0};
   results.requirements[0].aloneUpper = {0.51, 0, 1};
   const std::string page = renderReport(results);
-  EXPECT_THAT(page,
-              AllOf(HasSubstr("<b>± 10 % would do</b></li>"), HasSubstr("<b>not alone</b></li>"),
-                    HasSubstr("<dt>It holds</dt><dd>if first &lt;angle&gt; alone shrinks from ±&nbsp;20&nbsp;% to ±&nbsp;10&nbsp;%</dd>")));
+  EXPECT_THAT(page, AllOf(HasSubstr("<b>± 10 % would do</b></li>"), HasSubstr("<b>not alone</b></li>"),
+                          HasSubstr("<dt>It holds</dt><dd>if first &lt;angle&gt; alone shrinks from ±&nbsp;20&nbsp;% "
+                                    "to ±&nbsp;10&nbsp;%</dd>")));
 }
 
 TEST(Causes, AreToldOfWhatCanFailAlone) {
