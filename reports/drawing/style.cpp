@@ -23,7 +23,7 @@ std::string swatch(const Layer& layer) {
                        layer.name);
   if (layer.style.fill == 0 && layer.kind == Layer::Kind::band && !layer.style.isDashed)
     return fmt::format("border:{}px solid var(--{})", std::max(1.0, layer.style.width), layer.name);
-  if (layer.style.fill == 0) return "height:0;border-top:" + line;
+  if (layer.style.fill == 0) return "height:0;border-radius:0;border-top:" + line;
   return fmt::format("background:var(--{}-fill)", layer.name) + (layer.style.width > 0 ? ";border:" + line : "");
 }
 

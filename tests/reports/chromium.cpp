@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string_view>
 
 namespace gamut {
 namespace {
@@ -20,6 +21,22 @@ std::array<int, 2> pipeEnds() {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   return ends;
+}
+
+std::string fromBase64(const std::string& text) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned held = 0;
+  int bits = 0;
+  for (const char c : text) {
+    const auto digit = digits.find(c);
+    if (digit == digits.npos) break;  // at the end
+    held = (held << 6U | static_cast<unsigned>(digit)) & 0xffffU;
+    if ((bits += 6) < 8) continue;
+    bits -= 8;
+    bytes += static_cast<char>(held >> static_cast<unsigned>(bits) & 0xffU);
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -62,6 +79,22 @@ Chromium::~Chromium() {
 }
 
 std::string Chromium::found(const std::string& page, const std::string& script, const Screen& screen) {
+  const Tab tab = opened(page, screen);
+  std::string text = ranIn(tab, script);
+  close(tab);
+  return text;
+}
+
+std::string Chromium::picture(const std::string& page, const std::string& script, const Screen& screen) {
+  const Tab tab = opened(page, screen);
+  asked("Emulation.setScrollbarsHidden", R"({"hidden": true})", tab.session);  // they tell how long a page is
+  ranIn(tab, script + "; return '';");
+  const json seen = json::parse(asked("Page.captureScreenshot", json{{"format", "png"}}.dump(), tab.session));
+  close(tab);
+  return fromBase64(seen["result"]["data"].get<std::string>());
+}
+
+Chromium::Tab Chromium::opened(const std::string& page, const Screen& screen) {
   const json target = json::parse(asked("Target.createTarget", json{{"url", "file://" + page}}.dump()));
   const std::string id = target["result"]["targetId"];
   const json attached = json::parse(asked("Target.attachToTarget", json{{"targetId", id}, {"flatten", true}}.dump()));
@@ -70,7 +103,14 @@ std::string Chromium::found(const std::string& page, const std::string& script, 
         json{{"width", screen.width}, {"height", screen.height}, {"deviceScaleFactor", 1}, {"mobile", false}}.dump(),
         session);
   const json scheme{{"name", "prefers-color-scheme"}, {"value", screen.isDark ? "dark" : "light"}};
-  asked("Emulation.setEmulatedMedia", json{{"features", json::array({scheme})}}.dump(), session);
+  asked("Emulation.setEmulatedMedia",
+        json{{"media", screen.isPaper ? "print" : "screen"}, {"features", json::array({scheme})}}.dump(), session);
+  asked("Emulation.setEmulatedVisionDeficiency", json{{"type", screen.isDeuteranopic ? "deuteranopia" : "none"}}.dump(),
+        session);
+  return {id, session};
+}
+
+std::string Chromium::ranIn(const Tab& tab, const std::string& script) {
   // The target is empty until the page is there; what runs in it until then is lost with it.
   const std::string whole =
       "location.protocol !== 'file:' ? null : (async () => { if (document.readyState !== 'complete') "
@@ -78,16 +118,16 @@ std::string Chromium::found(const std::string& page, const std::string& script, 
       script + " })()";
   const std::string evaluated = json{{"expression", whole}, {"awaitPromise", true}, {"returnByValue", true}}.dump();
   for (;;) {
-    const json said = json::parse(asked("Runtime.evaluate", evaluated, session));
+    const json said = json::parse(asked("Runtime.evaluate", evaluated, tab.session));
     if (!said.contains("result")) continue;
     const json& result = said["result"];
     if (result.contains("exceptionDetails")) throw std::runtime_error(result["exceptionDetails"].dump());
-    if (const json& found = result["result"]; found.contains("value") && found["value"].is_string()) {
-      asked("Target.closeTarget", json{{"targetId", id}}.dump());
+    if (const json& found = result["result"]; found.contains("value") && found["value"].is_string())
       return found["value"];
-    }
   }
 }
+
+void Chromium::close(const Tab& tab) { asked("Target.closeTarget", json{{"targetId", tab.target}}.dump()); }
 
 std::string Chromium::asked(const std::string& method, const std::string& parameters, const std::string& session) {
   json message{{"id", ++asked_}, {"method", method}, {"params", json::parse(parameters)}};

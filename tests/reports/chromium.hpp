@@ -15,10 +15,11 @@ class Chromium {
  public:
   static bool isInstalled();
 
-  /// So many pixels of a page are seen, by a reader who prefers the dark or does not.
+  /// So many pixels of a page are seen, on a screen or as on paper, by a reader who prefers the dark or does not, and
+  /// who tells red from green or, as one man in a hundred, does not.
   struct Screen {
     int width = 800, height = 600;
-    bool isDark = false;
+    bool isDark = false, isPaper = false, isDeuteranopic = false;
   };
   Chromium();
   ~Chromium();
@@ -28,8 +29,17 @@ class Chromium {
   /// The text that an asynchronous function finds in this page; its body is `script`, which may wait. The page is
   /// opened when it begins, and closed when it ends; whether its own scripts are done is for it to await.
   std::string found(const std::string& page, const std::string& script, const Screen& screen);
+  /// What is seen once such a script has ended: a PNG.
+  std::string picture(const std::string& page, const std::string& script, const Screen& screen);
 
  private:
+  /// A page that is open.
+  struct Tab {
+    std::string target, session;
+  };
+  Tab opened(const std::string& page, const Screen& screen);
+  std::string ranIn(const Tab& tab, const std::string& script);
+  void close(const Tab& tab);
   /// The answer to a command; all as JSON.
   std::string asked(const std::string& method, const std::string& parameters, const std::string& session = "");
   void send(std::string message) const;
