@@ -601,14 +601,14 @@ void Assembly<S>::placeTriangles() {
       for (const Loop& loop : loops_)
         for (std::size_t i = 0; i < loop.rows && !loop.isPlaced; ++i)
           open.insert(static_cast<int>(dependents_[loop.first + i]));
-      for (Loop& loop : loops_) {
+      for (std::size_t number = 0; number < loops_.size(); ++number) {
+        const Loop& loop = loops_[number];
         if (loop.isPlaced || !loop.triangle || !(std::abs(loop.side) > leastSide)) continue;
         const std::vector<S> given = loop.triangle->given();
         if (given.empty() ||
             dependOn(given, [&](const Node& node) { return node.op == Op::state && open.contains(node.a); }))
           continue;
-        loop.triangle->place(loop.side > 0 ? 1 : -1);
-        loop.isPlaced = true;
+        placeLoop(number);
         isDone = false;
         break;
       }
@@ -616,8 +616,56 @@ void Assembly<S>::placeTriangles() {
   }
 }
 
+/// The angle β of a hinge from its cosine and sine: φ + 2 atan(s/(1 + c)), c and s those of β − φ, where β is known to
+/// be less than half a turn from φ; no value where it may be half a turn.
+template <class S>
+void Assembly<S>::placeLoop(std::size_t number) {
+  using std::atan, std::cos, std::sin;
+  Loop& loop = loops_[number];
+  for (S& margin : loop.triangle->margins()) placedMargins_.push_back({std::move(margin), number, ""});
+  loop.triangle->place(loop.side > 0 ? 1 : -1);
+  loop.isPlaced = true;
+  for (const PlacedHinge<S>& hinge : loop.triangle->placed())
+    for (const auto& [name, course] : courses_) {
+      if (parts_.variables_.at(name) != hinge.angle) continue;
+      S middle = S(course.middle);
+      for (const auto& [turning, times] : course.turns)
+        middle = middle + S(static_cast<double>(times)) * parts_.variables_.at(turning)->position;
+      const S c = cos(middle), s = sin(middle);
+      const S above = S(1.0) + (hinge.cosine * c + hinge.sine * s), sine = hinge.sine * c - hinge.cosine * s;
+      hinge.angle->position = middle + S(2.0) * atan(S(sine / above));
+      placedMargins_.push_back({above, number, name});
+    }
+}
+
+template <class S>
+bool Assembly<S>::areLoopsPlaced() const {
+  return !loops_.empty() && std::ranges::all_of(loops_, &Loop::isPlaced);
+}
+
+template <class S>
+std::vector<double> Assembly<S>::closedAt(std::vector<double> x, double time) requires std::same_as<S, double> {
+  constexpr int most = 20;
+  constexpr double closed = 1e-9;
+  for (int step = 0; step < most; ++step) {
+    setState(x, time);
+    std::vector<double> at, by = opening();
+    for (const std::size_t i : dependents_) at.push_back(x[i]);
+    const bool isThere = sizeOf(by) < closed;
+    at = approached(std::move(at), by, dependentsTurn_);
+    for (std::size_t i = 0; i < at.size(); ++i) x[dependents_[i]] = at[i];
+    if (!isThere) continue;
+    const bool isAside = std::ranges::any_of(loops_, [](const Loop& loop) {
+      return loop.triangle && (loop.triangle->given().empty() || !(loop.triangle->side() * loop.side > 0));
+    });
+    return isAside ? std::vector<double>() : x;
+  }
+  return {};
+}
+
 template <class S>
 void Assembly<S>::releaseTriangles() {
+  placedMargins_.clear();
   for (Loop& loop : loops_) {
     if (loop.isPlaced) loop.triangle->release();
     loop.isPlaced = false;

@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mechanics/angle_courses.hpp"
 #include "mechanics/assembler.hpp"
 #include "mechanics/equations/system.hpp"
 #include "mechanics/equations/unfolding.hpp"
@@ -47,6 +48,24 @@ class Assembly {
   /// the nominal position, of which the start is the remainder; motions that strike rigid ends are unfolded
   /// (equations/unfolding.hpp).
   void setMotion(std::span<const S> x, const S& time = S(0.0));
+  /// From the next motion on, loops that close as triangles do put their joints' angles too, which are then no states:
+  /// each is where it is within half a turn of its course.
+  void placeAngles(AngleCourses courses) { courses_ = std::move(courses); }
+  /// Whether each loop stands where it closes, in closed form, since setMotion().
+  bool areLoopsPlaced() const;
+  /// Of a loop that is placed so: above zero wherever it closes, and, of the angle of a joint, wherever this is less
+  /// than half a turn from its course. Where one is zero, the way in which it is assembled, or the angle's whole turns,
+  /// are another one beyond.
+  struct PlacedMargin {
+    S value;
+    std::size_t loop;   ///< in the order of Mechanism::loops()
+    std::string angle;  ///< a coordinate; of the triangle itself: empty
+  };
+  const std::vector<PlacedMargin>& placedMargins() const { return placedMargins_; }
+  /// The states at which the loops are closed at this time, found from these by Newton's steps, of which none turns by
+  /// more than half a radian; empty where it is not found, or a triangle is not on its side. Of machines that move by
+  /// nothing but drives and loops.
+  std::vector<double> closedAt(std::vector<double> x, double time) requires std::same_as<S, double>;
   /// u̇ for the present state.
   std::vector<S> accelerations(Formulation formulation = Formulation::sparse);
   /// ẋ for the present state: rates of positions, accelerations, rates of own states.
@@ -132,6 +151,7 @@ class Assembly {
   void findTriangles(const Mechanism& mechanism);
   void placeTriangles();
   void releaseTriangles();
+  void placeLoop(std::size_t number);
   void endWhereOpen();
   std::vector<S> opening();
   void placeAtStart();
@@ -166,6 +186,8 @@ class Assembly {
     bool isPlaced = false;
   };
   std::vector<Loop> loops_;
+  AngleCourses courses_;
+  std::vector<PlacedMargin> placedMargins_;
   bool placesTriangles_ = false;          // by the next states
   bool areLoopsHeld_ = false;             // by multipliers: rates of dependent coordinates are states too
   std::vector<S> initialState_, origin_;  // the second: what differences of states are from; else zero

@@ -175,8 +175,20 @@ class PlanarTriangle final : public Triangle<S> {
     return cross(e_, z * a_) / sqrt(e_.squared() * a_.squared());
   }
 
+  std::vector<S> margins() const override {
+    using std::sqrt;
+    const S l = sqrt(squaredLength_);
+    if (slideOf() != nullptr) {
+      const S distance = cross(c_, d_);
+      return {squaredLength_, l - distance, l + distance};
+    }
+    const S a = sqrt(a_.squared()), e = sqrt(e_.squared());
+    return {squaredLength_, a + l - e, e + l - a, e + a - l};
+  }
+
   void place(double side) override {
     using std::sqrt;
+    placed_.clear();
     if (PrismaticJoint<S>* slide = slideOf()) {
       const S s = S(side) * sqrt(squaredLength_ - square(cross(c_, d_))) - dot(c_, d_);
       slide->path().position = s;
@@ -192,6 +204,8 @@ class PlanarTriangle final : public Triangle<S> {
     turn(0, z, on_[0]);
     if (kind_ != Kind::withRod) turn(1, direction(b_, e_ - r), kind_ == Kind::inTurn ? z * on_[1] : on_[1]);
   }
+
+  const std::vector<PlacedHinge<S>>& placed() const override { return placed_; }
 
   void release() override {
     for (Leg<S>& leg : legs_)
@@ -209,7 +223,9 @@ class PlanarTriangle final : public Triangle<S> {
   void turn(std::size_t leg, const Planar<S>& z, const Planar<S>& on) {
     RevoluteJoint<S>& hinge = *legs_[leg].hinge;
     const Planar<S> by = z * on.conjugate();
-    hinge.standBy(by.x, S(hinge.axis().sign()) * by.y, view_.turned(z).after(base_->R));
+    const S sine = S(hinge.axis().sign()) * by.y;
+    hinge.standBy(by.x, sine, view_.turned(z).after(base_->R));
+    placed_.push_back({&hinge.angle(), by.x, sine});
   }
 
   void look() {
@@ -282,6 +298,7 @@ class PlanarTriangle final : public Triangle<S> {
   const Frame<S>* base_ = nullptr;  // in whose plane all this is
   Planar<S> a_, b_, c_, d_, e_;
   S squaredLength_ = S(0.0);
+  std::vector<PlacedHinge<S>> placed_;
   std::array<Planar<S>, 2> on_;  // directions of what carries the joints; of the outer of two in turn, on the inner one
 };
 

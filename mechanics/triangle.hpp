@@ -25,6 +25,13 @@
 
 namespace gamut {
 
+/// A hinge as a triangle has put it.
+template <class S>
+struct PlacedHinge {
+  Variable<S>* angle;
+  S cosine, sine;
+};
+
 /// Of double, to learn how a machine is assembled, and of Recorded.
 template <class S>
 class Triangle {
@@ -41,8 +48,13 @@ class Triangle {
   virtual std::vector<S> given() = 0;
   /// After given(): n, by the joints' positions, in parts of the side |a| or of l.
   virtual S side() const = 0;
+  /// After given(): l² and what sides leave of the sum of both others, or l of the slide's distance |c × d|: above
+  /// zero, all of them, just where this is a triangle, of which no side is zero and n is not.
+  virtual std::vector<S> margins() const = 0;
   /// After given(): puts the joints to where the loop is closed, with n of this sign.
   virtual void place(double side) = 0;
+  /// Its hinges as they were put last.
+  virtual const std::vector<PlacedHinge<S>>& placed() const = 0;
   /// The joints stand by their coordinates again.
   virtual void release() = 0;
 };

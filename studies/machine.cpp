@@ -3,6 +3,7 @@
 // rests, for flow and samples to follow.
 #include "studies/machine.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -20,9 +21,11 @@
 #include "analyses/flow/needed_states.hpp"
 #include "analyses/roots/eigenvalue_bounds.hpp"
 #include "analyses/roots/root_family.hpp"
+#include "analyses/zero_free.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "mechanics/rest.hpp"
+#include "mechanics/whole_turns.hpp"
 #include "scalars/program/recorder.hpp"
 #include "scalars/recorded.hpp"
 #include "studies/assumed_rows.hpp"
@@ -141,18 +144,107 @@ void restUnread(const Study& study, Motion& motion) {
   motion.f = withOthersAtRest(motion.f, neededStates(motion.f, readers, true));
 }
 
-Program recordedOutputs(const Study& study, const Rest* rest, bool withinEnds = false) {
+/// Of loops that are placed: one state, which rests, where those of the machine were, of which nothing is read.
+Program placedOf(const Study& study, std::size_t values,
+                 const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what,
+                 const AngleCourses& placed) {
+  const std::vector<std::string> parameters = freeParametersOf(study);
+  const std::size_t given = study.mechanism.stateNames().size();
+  const int count = static_cast<int>(parameters.size()), outputs = static_cast<int>(values);
+  const Program ofStates =
+      record(static_cast<int>(given), count, outputs, [&](auto t, const auto& x, const auto& p, auto& y) {
+        Assembly<Recorded> assembly(study.mechanism, parameters, p);
+        assembly.placeAngles(placed);
+        assembly.setMotion(x, t);
+        std::ranges::copy(what(assembly), y.begin());
+      });
+  return record(1, count, outputs, [&](auto t, const auto&, const auto& p, auto& y) {
+    const std::vector<Recorded> nothing(given, Recorded(0.0));
+    std::ranges::copy(written(ofStates, nothing, {p.begin(), p.end()}, Recorded(t)), y.begin());
+  });
+}
+
+/// What may be where this margin is zero.
+std::string singularAt(const Mechanism& mechanism, const Assembly<Recorded>::PlacedMargin& margin) {
+  const Mechanism::Closed& loop = mechanism.loops()[margin.loop];
+  return margin.angle.empty()
+             ? fmt::format("the loop '{}' may come to a dead point of {}", loop.element, fmt::join(loop.by, ", "))
+             : fmt::format("{} of the loop '{}' may be half a turn from where it is in the nominal machine",
+                           margin.angle, loop.element);
+}
+
+/// Of loops that are placed.
+Regular recordedRegular(const Study& study, const AngleCourses& placed) {
+  using Placed = Assembly<Recorded>;
+  Regular regular;
+  placedOf(
+      study, 0,
+      [&](const Placed& assembly) {
+        for (const Placed::PlacedMargin& margin : assembly.placedMargins())
+          regular.otherwise.push_back(singularAt(study.mechanism, margin));
+        return std::vector<Recorded>();
+      },
+      placed);
+  regular.values = placedOf(
+      study, regular.otherwise.size(),
+      [](const Placed& assembly) {
+        std::vector<Recorded> values;
+        for (const Placed::PlacedMargin& margin : assembly.placedMargins()) values.push_back(margin.value);
+        return values;
+      },
+      placed);
+  return regular;
+}
+
+/// Rates of what rests that become infinite where a loop that is placed is no longer regular, so that samples neither
+/// come there nor pass it by.
+Program recordedEnding(const Program& regular) {
+  // The state, which counts for nothing, makes them no functions of time alone, whose growth samples need not meet in
+  // cells (TimeCells): what they grow with is one.
+  constexpr double nothing = 0x1p-300;
+  return record(1, regular.parameters(), 1, [&](auto t, const auto& x, const auto& p, auto& y) {
+    Recorded rate(0.0);
+    for (const Recorded& value : written(regular, {x.begin(), x.end()}, {p.begin(), p.end()}, Recorded(t)))
+      rate = rate + Recorded(1.0) / (value * sqrt(value) * (Recorded(1.0) + Recorded(nothing) * x[0]));
+    y[0] = rate;
+  });
+}
+
+/// Where directions go far round, as those of plays, or something varies, of which nothing that is followed knows
+/// enough; else coordinates are followed, which knows more between output times. None where a witness is asked for,
+/// which follows them as states, nor where some value of the box starts where nothing goes on from.
+std::optional<AngleCourses> placedIn(const Study& study, const std::vector<std::string>& parameters) {
+  constexpr double farRound = 1.5;  // rad, as in circles.cpp
+  const bool isRound = std::ranges::any_of(study.uncertain, [](const UncertainQuantity& quantity) {
+    return quantity.varies || (quantity.unit == "rad" && width(quantity.uncertain.range) > farRound);
+  });
+  const bool isFollowed = std::ranges::any_of(
+      study.analyses, [](const auto& each) { return each->section() == "witness" && each->isAsked(); });
+  if (study.analysis != Study::Analysis::inverseDynamics || !isRound || isFollowed) return std::nullopt;
+  std::optional<AngleCourses> placed = placedLoops(study.mechanism, parameters, study.horizon);
+  if (!placed) return std::nullopt;
+  Box box = {Interval(0.0)};
+  std::ranges::copy(boxOf(study, parameters), std::back_inserter(box));
+  constexpr double soon = 0x1p-6;  // of the horizon
+  if (!(zeroFree(recordedRegular(study, *placed).values, box, soon * study.horizon).until > 0)) placed.reset();
+  return placed;
+}
+
+Program recordedOutputs(const Study& study, const Rest* rest, bool withinEnds = false,
+                        const std::optional<AngleCourses>& placed = {}) {
   const std::vector<Expression> outputs = outputExpressions(study);
   return recordedOf(
       study, rest, outputs.size(), [&](const Assembly<Recorded>& assembly) { return recordOutputs(assembly, outputs); },
-      withinEnds);
+      withinEnds, placed);
 }
 
-void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std::string>& parameters, Motion& motion) {
-  if (study.isMotionGiven()) {
+void recordAnalysis(const Study& study, const Rest* rest, const std::optional<AngleCourses>& placed,
+                    const std::vector<std::string>& parameters, Motion& motion) {
+  if (study.isMotionGiven() || placed) {
     motion.f =
         record(1, static_cast<int>(parameters.size()), [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
-    motion.g = recordedOutputs(study, rest);
+    motion.g = recordedOutputs(study, rest, false, placed);
+    if (placed) motion.sampled = recordedEnding(recordedRegular(study, *placed).values);
   } else if (study.moves()) {
     refuseMasslessLoops(study);
     motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
@@ -170,12 +262,13 @@ void recordAnalysis(const Study& study, const Rest* rest, const std::vector<std:
 void takeNumbers(Machine& machine) {
   const Mechanism& mechanism = machine.study.mechanism;
   UncertainMotion& motion = machine.motion;
-  const std::vector<std::string> names = machine.rest ? std::vector<std::string>() : mechanism.stateNames();
+  const std::vector<std::string> names =
+      machine.rest || machine.placed ? std::vector<std::string>() : mechanism.stateNames();
   const std::vector<bool> isDifference = mechanism.startsWith(machine.freeParameters);
   if (machine.rest) machine.box.assign(machine.rest->remainders(), Interval(0.0));
   for (std::size_t i = 0; i < names.size(); ++i)
     machine.box.push_back(isDifference[i] ? Interval(0.0) : mechanism.rangeOf(mechanism.initialState()[i]));
-  if (machine.study.isMotionGiven()) machine.box.emplace_back(0.0);
+  if (machine.isMotionGiven()) machine.box.emplace_back(0.0);
   machine.states = machine.box.size();
   std::unordered_map<std::string, int> slotOf;
   for (std::size_t i = 0; i < names.size(); ++i) slotOf[names[i]] = static_cast<int>(i);
@@ -207,7 +300,8 @@ std::function<bool(double)> withinAMinute(const Machine::Progress& progress, con
 /// they do is proved only with Newton's steps from the nominal position. What is left open, where it is proved.
 Box approachLoops(Machine& machine, const Machine::Progress& progress) {
   constexpr std::size_t few = 6;  // rows: Newton's steps lose little, and come nearer for wide tolerances
-  if (machine.rest || machine.study.mechanism.dependents().size() <= few || machine.freeParameters.empty()) return {};
+  if (machine.rest || machine.placed) return {};
+  if (machine.study.mechanism.dependents().size() <= few || machine.freeParameters.empty()) return {};
   Mechanism& mechanism = machine.study.mechanism;
   const std::vector<std::string>& names = machine.freeParameters;
   const Box parameters(machine.box.begin() + static_cast<std::ptrdiff_t>(machine.states), machine.box.end());
@@ -304,7 +398,7 @@ void closeFamilies(Machine& machine, const Box& open, const Machine::Progress& p
   if (machine.rest) {
     machine.closing = machine.rest->families();
     for (std::size_t i = 0; i < machine.states; ++i) machine.remainders.push_back(static_cast<int>(i));
-  } else if (mechanism.isClosed()) {
+  } else if (mechanism.isClosed() && !machine.placed) {
     machine.closing = {recordClosing(mechanism, machine.freeParameters)};
     refuseVaryingLoops(machine.study, machine.freeParameters);
     std::vector<std::string> dependents = mechanism.dependents();
@@ -336,7 +430,9 @@ void takeLevels(Machine& machine) {
 }  // namespace
 
 Program recordedOf(const Study& study, const Rest* rest, std::size_t values,
-                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what, bool withinEnds) {
+                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what, bool withinEnds,
+                   const std::optional<AngleCourses>& placed) {
+  if (placed) return placedOf(study, values, what, *placed);
   const std::vector<std::string> parameters = freeParametersOf(study);
   const bool moves = study.moves();
   const std::size_t given = rest != nullptr ? rest->remainders() : study.mechanism.stateNames().size();
@@ -375,14 +471,14 @@ std::shared_ptr<const Rest> restOf(const Study& study) {
   }
 }
 
-Motion recordedMotion(const Study& study, const Rest* rest) {
+Motion recordedMotion(const Study& study, const Rest* rest, const std::optional<AngleCourses>& placed) {
   Motion motion;
   motion.times = study.times;
   for (const OutputInfo& output : study.outputs) motion.outputNames.push_back(output.name);
   try {
     checkStart(study.mechanism);
     const MemoryBound bound(StatedLimits{}.resolved().memory);  // what a study states is of its runs
-    recordAnalysis(study, rest, freeParametersOf(study), motion);
+    recordAnalysis(study, rest, placed, freeParametersOf(study), motion);
   } catch (...) {
     refuseMechanism(study);
   }
@@ -393,9 +489,11 @@ Machine::Machine(Study of, const Progress& progress) : study(std::move(of)), fre
   const double start = processCpuSeconds();
   if (progress) progress("equations", 0);
   rest = restOf(study);
+  placed = placedIn(study, freeParameters);
+  if (placed) regular = recordedRegular(study, *placed);
   takeNumbers(*this);
   const Box open = approachLoops(*this, progress);
-  motion.motion = recordedMotion(study, rest.get());
+  motion.motion = recordedMotion(study, rest.get(), placed);
   if (rest) plain = recordedOutputs(study, rest.get(), true);
   closeFamilies(*this, open, progress);
   cpu = processCpuSeconds() - start;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "analyses/samples/courses.hpp"
 #include "analyses/samples/ensemble.hpp"
 #include "analyses/uncertainty.hpp"
+#include "mechanics/angle_courses.hpp"
 #include "scalars/program/program.hpp"
 #include "studies/study.hpp"
 
@@ -26,6 +28,13 @@ class Rest;
 struct ConstantQuantity {
   std::size_t number;  ///< among the study's uncertain quantities
   int slot;            ///< its place among the numbers that programs take
+};
+
+/// Of what equations take: while all of it is above zero, outputs are of one motion, that of the start; beyond, they
+/// may be of another one, or have no value. Samples end there by their rates.
+struct Regular {
+  Program values;                      ///< none: always
+  std::vector<std::string> otherwise;  ///< what there may be where one of these is not above zero, in words
 };
 
 /// Programs of a study take initial values, then free parameters: the uncertain quantities that no state starts with.
@@ -58,7 +67,11 @@ struct Machine {
   Program plain;           ///< at rest equations().g as plain intervals know most of it; else none
   UncertainMotion motion;  ///< the equations as samples follow them: what varies in time takes the course that its
                            ///< number chooses
+  Regular regular;         ///< of equations()
+  std::optional<AngleCourses> placed;  ///< of driven loops that stand where closed forms put them (whole_turns.hpp)
 
+  /// Time passes, but nothing is left to follow: programs have one state, which rests.
+  bool isMotionGiven() const { return study.isMotionGiven() || placed; }
   /// In which what varies in time is a parameter; where no time passes: g of parameters alone.
   const Motion& equations() const { return courses.empty() ? motion.motion : motion.switching.motion; }
   /// A box of other ranges, for all values of which loops are proved to close, or position and modes of rest to exist.
@@ -76,14 +89,19 @@ struct Machine {
 std::shared_ptr<const Rest> restOf(const Study& study);
 
 /// The programs of a study's mechanism, as Machine::equations; throws as Machine does. `rest`: restOf() if it has one.
-Motion recordedMotion(const Study& study, const Rest* rest);
+/// `placed`: as Machine::placed.
+Motion recordedMotion(const Study& study, const Rest* rest, const std::optional<AngleCourses>& placed = {});
 inline Motion recordedMotion(const Study& study) { return recordedMotion(study, restOf(study).get()); }
 
 /// `what(assembly)`, so many values, at a state and time of a study's motion: takes what Machine::equations take.
 /// `withinEnds`: as of Rest::at.
 Program recordedOf(const Study& study, const Rest* rest, std::size_t values,
-                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what,
-                   bool withinEnds = false);
+                   const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what, bool withinEnds = false,
+                   const std::optional<AngleCourses>& placed = {});
+inline Program recordedOf(const Machine& machine, std::size_t values,
+                          const std::function<std::vector<Recorded>(const Assembly<Recorded>&)>& what) {
+  return recordedOf(machine.study, machine.rest.get(), values, what, false, machine.placed);
+}
 
 /// What is looked at, each in its unit.
 std::vector<Expression> outputExpressions(const Study& study);

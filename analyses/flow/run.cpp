@@ -407,6 +407,46 @@ Tube FlowRun::meetStages(Tube a, Tube b, const FlowOptions& options, const FlowB
   return both;
 }
 
+Tube FlowRun::startAlone(std::vector<Interval> states, int outputs, std::size_t levels) {
+  Tube tube;
+  tube.times_ = {0.0};
+  tube.outputs_ = tube.outputsOver_ = {std::vector<Interval>(at(outputs), Interval::entire())};
+  tube.cuts_.assign(levels, tube.outputs_);
+  tube.states_ = tube.statesOver_ = {std::move(states)};
+  tube.asides_.resize(1);
+  tube.extremes_.resize(1);
+  return tube;
+}
+
+void FlowRun::endEarly(Tube& tube, const std::string& why, double horizon, const std::vector<double>& outputTimes,
+                       const FlowOptions& options) {
+  const std::size_t rows = tube.reachedTimes();
+  const double end = tube.times_.back();
+  const auto dropLast = [rows](auto& of) {  // of what is told of each time, if it is
+    if (of.size() == rows) of.pop_back();
+  };
+  const bool isWhole = rows == tube.times_.size();
+  if (isWhole && end > 0 && !std::ranges::binary_search(outputTimes, end)) {
+    for (Rows* of : {&tube.statesOver_, &tube.outputs_, &tube.outputsOver_, &tube.asides_, &tube.states_})
+      dropLast(*of);
+    dropLast(tube.extremes_), dropLast(tube.excess_);
+    for (Rows& cut : tube.cuts_) dropLast(cut);
+    if (tube.models_) {
+      FlowModels models = *tube.models_;
+      dropLast(models.at), dropLast(models.over);
+      tube.models_ = std::make_shared<const FlowModels>(std::move(models));
+    }
+    explain(tube, options, FlowCause(tube.limit_));
+  }
+  tube.times_ = {0.0};
+  for (const double time : outputTimes)
+    if (time > tube.times_.back()) tube.times_.push_back(time);
+  if (horizon > tube.times_.back()) tube.times_.push_back(horizon);
+  if (!isWhole) return;  // for a cause of its own
+  tube.cause_ = {FlowCause::Kind::edge, why};
+  tube.why_ = "at " + toString(end) + " s " + tube.cause_.sentence();
+}
+
 void FlowRun::dropStates(Tube& tube, int n) {
   const bool hasOutputs = !tube.outputs_[0].empty();
   const auto cut = [&](std::vector<std::vector<Interval>>& rows) {

@@ -127,7 +127,8 @@ class Trials {
     options.budget = work / Work::perSecond;
     const Motion& motion = run_.machine.equations();
     const std::uint64_t began = Work::counted();
-    const Tube tube = Flow(motion.f, motion.g, std::move(options)).enclose(box, run_.study.horizon, motion.times);
+    const Tube tube = encloseMotion(motion, run_.machine.regular, motion.g, std::move(options), box, run_.study.horizon,
+                                    motion.times);
     left_ -= static_cast<double>(Work::counted() - began);
     if (tube.wasStopped()) return std::nullopt;
     return tube.reached() == run_.study.horizon && tube.tightness() <= 2;

@@ -70,10 +70,11 @@ class Encloser {
   void encloseMotion() {
     const Motion& motion = run_.machine.equations();  // of the samples', what varies in time has a course
     constexpr std::size_t few = 2, many = 8;  // angles, quantities: beyond, a flow does nothing about far angles
-    const std::size_t far = study_.isMotionGiven() ? countFarAngles(motion.g, 0, run_.machine.box) : 0;
+    const std::size_t far = run_.machine.isMotionGiven() ? countFarAngles(motion.g, 0, run_.machine.box) : 0;
     const bool isRough = far > few || (far > 0 && study_.uncertain.size() > many);
-    const Tube tube = Flow(motion.f, motion.g, isRough ? roughly(options()) : options())
-                          .enclose(run_.machine.box, study_.horizon, study_.times, run_.machine.levels);
+    const Tube tube =
+        gamut::encloseMotion(motion, run_.machine.regular, motion.g, isRough ? roughly(options()) : options(),
+                             run_.machine.box, study_.horizon, study_.times, run_.machine.levels);
     if (tube.times() != study_.times) throw std::logic_error("the flow's output times are not the study's");
     found.reachedTimes = tube.reachedTimes();
     interval.over = run_.emptyBounds();

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "analyses/flow/run.hpp"
+#include "analyses/zero_free.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
@@ -37,7 +39,7 @@ FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool
   flow.jobs = jobs;
   flow.cancelled = cancelled;
   flow.stateNames = study.mechanism.stateNames();
-  if (study.isMotionGiven()) {
+  if (machine.isMotionGiven()) {
     flow.stateNames = {"rest"};
     flow.longestStep = longestStepOf(study);
   }
@@ -46,6 +48,19 @@ FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool
   flow.remainders = machine.remainders;
   flow.dropsUnneeded = true;
   return flow;
+}
+
+Tube encloseMotion(const Motion& motion, const Regular& regular, Program outputs, FlowOptions options, const Box& box,
+                   double horizon, const std::vector<double>& times, const std::vector<Box>& levels) {
+  const ZeroFree known = zeroFree(regular.values, box, horizon, options.cancelled);
+  if (known.first < 0)
+    return Flow(motion.f, std::move(outputs), std::move(options)).enclose(box, horizon, times, levels);
+  std::vector<double> early;
+  std::ranges::copy_if(times, std::back_inserter(early), [&](double time) { return time <= known.until; });
+  Tube tube = FlowRun::startAlone({box.begin(), box.begin() + motion.f.states()}, outputs.outputs(), levels.size());
+  if (known.until > 0) tube = Flow(motion.f, std::move(outputs), options).enclose(box, known.until, early, levels);
+  FlowRun::endEarly(tube, regular.otherwise[static_cast<std::size_t>(known.first)], horizon, times, options);
+  return tube;
 }
 
 std::vector<int> marginOutputs(const Study& study) {
@@ -86,13 +101,14 @@ CellQuestion questionOf(const Study& study, const Requirement& requirement, std:
 }
 
 Tube modelMargins(const Machine& machine, FlowOptions options, const Box& box) {
-  return modelMarginsOf(machine.study, machine.equations(), std::move(options), box, machine.study.times);
+  return modelMarginsOf(machine.study, machine.equations(), machine.regular, std::move(options), box,
+                        machine.study.times);
 }
 
-Tube modelMarginsOf(const Study& study, const Motion& motion, FlowOptions options, const Box& box,
-                    const std::vector<double>& times) {
+Tube modelMarginsOf(const Study& study, const Motion& motion, const Regular& regular, FlowOptions options,
+                    const Box& box, const std::vector<double>& times) {
   Program g = programOf(motion.g, marginOutputs(study), options.modelled);
-  return Flow(motion.f, std::move(g), std::move(options)).enclose(box, study.horizon, times);
+  return encloseMotion(motion, regular, std::move(g), std::move(options), box, study.horizon, times);
 }
 
 Tube modelAll(const Machine& machine, FlowOptions options, const Box& box) {
@@ -103,7 +119,8 @@ Tube modelAll(const Machine& machine, FlowOptions options, const Box& box) {
   Program g = programOf(machine.equations().g, all, options.modelled);
   options.modelledAt.assign(options.modelled.begin() + static_cast<std::ptrdiff_t>(margins), options.modelled.end());
   options.modelled.resize(margins);
-  return Flow(machine.equations().f, std::move(g), std::move(options)).enclose(box, study.horizon, study.times);
+  return encloseMotion(machine.equations(), machine.regular, std::move(g), std::move(options), box, study.horizon,
+                       study.times);
 }
 
 }  // namespace gamut

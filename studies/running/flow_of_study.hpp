@@ -14,6 +14,11 @@ namespace gamut {
 /// Without progress, names of outputs and memory.
 FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool>* cancelled);
 
+/// The flow of a motion, of which these are outputs, over a box: not beyond where it is proved to be regular for all of
+/// it.
+Tube encloseMotion(const Motion& motion, const Regular& regular, Program outputs, FlowOptions options, const Box& box,
+                   double horizon, const std::vector<double>& times, const std::vector<Box>& levels = {});
+
 /// Outputs of the study that are margins, one behind the other.
 std::vector<int> marginOutputs(const Study& study);
 /// All others.
@@ -32,8 +37,8 @@ CellQuestion questionOf(const Study& study, const Requirement& requirement, std:
 /// the margins, and then all others with models at output times.
 Tube modelMargins(const Machine& machine, FlowOptions options, const Box& box);
 /// By programs of the same states and parameters as the study's, at these times.
-Tube modelMarginsOf(const Study& study, const Motion& motion, FlowOptions options, const Box& box,
-                    const std::vector<double>& times);
+Tube modelMarginsOf(const Study& study, const Motion& motion, const Regular& regular, FlowOptions options,
+                    const Box& box, const std::vector<double>& times);
 Tube modelAll(const Machine& machine, FlowOptions options, const Box& box);
 
 }  // namespace gamut

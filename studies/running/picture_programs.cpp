@@ -35,11 +35,9 @@ Seen whatIsSeen(const Machine& machine) {
   for (const std::size_t i : seen.times) seen.at.push_back(study.times[i]);
   seen.isEnclosed = study.asksFor<IntervalResult>() && moving <= mostEnclosedPoints;
   using Moved = Assembly<Recorded>;
-  seen.positions = recordedOf(study, machine.rest.get(), 3 * points,
-                              [&](const Moved& moved) { return positionsOf(moved, skeleton); });
-  seen.velocities = recordedOf(study, machine.rest.get(), 3 * points,
-                               [&](const Moved& moved) { return velocitiesOf(moved, skeleton); });
-  seen.drawn = recordedOf(study, machine.rest.get(), 3 * (points + skeleton.axes.size()), [&](const Moved& moved) {
+  seen.positions = recordedOf(machine, 3 * points, [&](const Moved& moved) { return positionsOf(moved, skeleton); });
+  seen.velocities = recordedOf(machine, 3 * points, [&](const Moved& moved) { return velocitiesOf(moved, skeleton); });
+  seen.drawn = recordedOf(machine, 3 * (points + skeleton.axes.size()), [&](const Moved& moved) {
     std::vector<Recorded> all = positionsOf(moved, skeleton);
     std::ranges::copy(axesOf(moved, skeleton), std::back_inserter(all));
     return all;

@@ -208,7 +208,7 @@ void takeFirstSamples(Run& run, SampledMotion& samples, Results& results) {
   stochastic.present = true;
   Choice::of(stochastic.plan).take(nameOf(options.plan));  // the words are the same
   stochastic.samples = static_cast<std::int64_t>(options.samples);
-  if (run.moves() && !run.study.isMotionGiven()) {
+  if (run.moves() && !run.machine.isMotionGiven()) {
     stochastic.relativeTolerance = options.tolerance.relative;
     stochastic.absoluteTolerance = options.tolerance.absolute;
   }

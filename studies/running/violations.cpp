@@ -26,6 +26,7 @@ bool comesFirst(const Suspect& a, const Suspect& b) {
 /// The motion of single values, and what of it still varies in time.
 struct ThinMotion {
   Motion motion;
+  Regular regular;
   Box box;
   std::vector<VaryingParameter> varying;
 };
@@ -77,7 +78,7 @@ class ThinFlows {
  private:
   /// Programs in which what varies takes its course; nothing where no such course is certainly meant.
   std::optional<ThinMotion> motionAt(const std::vector<double>& values) const {
-    ThinMotion thin{run_.machine.equations(), run_.machine.box, run_.machine.varying};
+    ThinMotion thin{run_.machine.equations(), run_.machine.regular, run_.machine.box, run_.machine.varying};
     std::vector<VaryingQuantity> courses;
     std::vector<std::pair<int, SwitchingCourse>> switching;
     const std::vector<SwitchingCourse>* const switchingAt = motion_.switchingAt(values);
@@ -107,7 +108,8 @@ class ThinFlows {
       std::erase_if(thin.varying, [&](const VaryingParameter& input) { return input.parameter == of.parameter; });
     }
     thin.box = run_.machine.within(std::move(thin.box));
-    for (Program* program : {&thin.motion.f, &thin.motion.g}) {
+    for (Program* program : {&thin.motion.f, &thin.motion.g, &thin.regular.values}) {
+      if (program->outputs() == 0) continue;
       if (!switching.empty()) *program = withSwitching(*program, switching);
       if (!courses.empty()) *program = withCourses(*program, courses, run_.machine.slowest, run_.machine.fastest);
     }
@@ -122,7 +124,7 @@ class ThinFlows {
               {0.0}};
     FlowOptions options = options_;
     options.varying = of.varying;
-    const Tube tube = modelMarginsOf(run_.study, of.motion, std::move(options), of.box, times);
+    const Tube tube = modelMarginsOf(run_.study, of.motion, of.regular, std::move(options), of.box, times);
     steps_ += tube.steps();
     ended_ = tube.why();
     ThinMargins thin{tube.models(), tube.times()};

@@ -10,7 +10,7 @@ namespace gamut {
 
 std::vector<std::vector<double>> takeWorstCourses(const Run& run, const OutputScales& scales, UncertainMotion& motion,
                                                   SwitchingResult& found) {
-  if (motion.switching.quantities.empty() || run.study.isMotionGiven()) return {};
+  if (motion.switching.quantities.empty() || run.machine.isMotionGiven()) return {};
   WorstCourseOptions options;
   for (std::size_t output = 0; output < run.study.outputs.size(); ++output)
     if (scales.empty() || !scales[output].isNothing()) options.outputs.push_back(output);
