@@ -33,6 +33,17 @@ Polyhedron::Direction unitOf(const Point& x) {
 /// normal·x of a unit vector along `normal`, which is of any length.
 Interval offsetOf(const Point& normal, const Point& x) { return enclosureOf(dot(normal, x)) / lengthOf(normal); }
 
+/// At least 1/sin²(a/2) = 2/(1 - cos a) of the angle a between two sides u, v, one after the other, |u||v| cos a =
+/// -u·v. Where it is acute, 1 - cos a = |u × v|²/(|u||v| (|u||v| - u·v)), by exact products, has a value however acute
+/// it is.
+double spreadOf(const Point& u, const Point& v) {
+  const mpq_class along = dot(u, v);
+  const Interval lengths = sqrt(enclosureOf(dot(u, u) * dot(v, v)));
+  if (along >= 0) return (Interval(2.0) / (Interval(1.0) + enclosureOf(along) / lengths)).upper();
+  const Point across = cross(u, v);
+  return (Interval(2.0) * lengths * (lengths - enclosureOf(along)) / enclosureOf(dot(across, across))).upper();
+}
+
 /// The number of the direction of `vector`, either way, among `vectors`, to which it is added if it is new.
 std::size_t directionOf(const Point& vector, std::vector<Point>& vectors, std::vector<Polyhedron::Direction>& units) {
   const auto found = std::ranges::find_if(vectors, [&](const Point& other) { return isZero(cross(vector, other)); });
@@ -121,10 +132,7 @@ void Polyhedron::addFace(const std::vector<Point>& points, const Point& normal, 
     const std::size_t first = cornerAt(from), second = cornerAt(to);
     if (std::ranges::none_of(edges_, [&](const Edge& edge) { return edge.from == second && edge.to == first; }))
       edges_.push_back({first, second, directionOf(along, edgeVectors_, directions_), lengthOf(along) / Interval(2.0)});
-    // Of the angle a of two sides: 1/sin²(a/2) = 2/(1 - cos a), and their normals' product is -cos a.
-    const Point next = difference(round[(i + 2) % round.size()], to);
-    const Interval cosine = -enclosureOf(dot(along, next)) / sqrt(enclosureOf(dot(along, along) * dot(next, next)));
-    spread_ = std::max(spread_, (Interval(2.0) / (Interval(1.0) - cosine)).upper());
+    spread_ = std::max(spread_, spreadOf(along, difference(round[(i + 2) % round.size()], to)));
   }
   faces_.push_back(std::move(face));
 }

@@ -1,5 +1,6 @@
 #include "mechanics/elements/hull.hpp"
 
+#include <cmath>
 #include <memory>
 
 #include "mechanics/assembler.hpp"
@@ -32,8 +33,11 @@ std::vector<Fault> Hull::faults(const RangeOf& rangeOf) const {
   if (!exact) return {{"points", "a point of '" + name + "' is no number", "lengths, such as 0.1 or \"10 cm\"", true}};
   if (exact->size() > Polyhedron::mostPoints)
     return {{"points", "'" + name + "' has " + std::to_string(exact->size()) + " points", "40 at most", true}};
-  if (Polyhedron(*exact).faces().empty())
+  const Polyhedron hull(*exact);
+  if (hull.faces().empty())
     return {{"points", "the points of '" + name + "' lie in one plane", "4 at least that do not", true}};
+  if (!std::isfinite(hull.spread()))
+    return {{"points", "a face of '" + name + "' has an angle too small for numbers", "a wider one", true}};
   return {};
 }
 

@@ -259,6 +259,29 @@ TEST_F(Hulls, AreAsFarFromAllShapesAsTheirNearestPoints) {
   EXPECT_GE(std::min(apart, overlapping), 8);
 }
 
+/// A sliver, of a thickness t that is lost beside its length: distances from it, and 1/sin²(a/2) of its sharpest angle,
+/// with tan a = t/√(1 + t²).
+TEST_F(Hulls, MayBeThin) {
+  for (const double thickness : {1e-3, 0x1p-24, 1e-9, 1e-14, 1e-30}) {
+    const Standing thin{{{0, 0, 0}, {1, 0, 0}, {1, thickness, 0}, {0, 0, thickness}}, {1, 0, 0, 0}, {0, 0, 0}};
+    Standing ball{{{0, 0, 0}}, {1, 0, 0, 0}, {0.5, 0.25, 0.125}};
+    Mechanism m;
+    m.add(State{"x"});
+    thin.addTo(m, "one");
+    ball.addTo(m, "other");
+    m.add(Separation{"apart", "one", "other"});
+    EXPECT_TRUE(m.faults(m.elements()[2], {}).empty()) << thickness;
+    const Exact exact = distanceOf(thin.exact(), ball.exact());
+    const Interval found = Assembly<Interval>(m).output("apart.distance");
+    EXPECT_TRUE(holdsExactly(found, exact)) << thickness << ": " << toString(found);
+    EXPECT_TRUE(holdsExactly(enclosed(m), exact)) << thickness;
+    const Exact t = thickness, cosine = sqrt((1 + t * t) / (1 + 2 * t * t)), spread = 2 / (1 - cosine);
+    const double told = hullOf(thin.points).spread();
+    EXPECT_GE(Exact(told), spread) << thickness;
+    EXPECT_LE(Exact(told), spread * (1 + Exact("1e-12"))) << thickness;
+  }
+}
+
 /// A box is the hull of its corners.
 TEST_F(Hulls, OfABoxsCornersAreTheBox) {
   for (int i = 0; i < 40; ++i) {
@@ -303,6 +326,9 @@ TEST(Hull, RefusesWhatIsNone) {
   EXPECT_TRUE(faultsOf(Hull{"hull", "inertial", solid}).empty());
   EXPECT_EQ(faultsOf(Hull{"hull", "inertial", solid, -1.0}).size(), 1U);
   EXPECT_EQ(faultsOf(Hull{"hull", "inertial", std::vector<ExpressionVector>(41, solid[0])}).size(), 1U);
+  std::vector<ExpressionVector> sliver = flat;
+  sliver[3] = {1.0, 1e-200, 1e-200};
+  EXPECT_EQ(faultsOf(Hull{"hull", "inertial", sliver}).size(), 1U);
   solid[1][0] = Expression::named("length");
   EXPECT_EQ(faultsOf(Hull{"hull", "inertial", solid}).size(), 1U);
 }
