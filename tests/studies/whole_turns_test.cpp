@@ -224,7 +224,7 @@ void expectEnd(const Results& results, double earliest, double latest, const std
   const IntervalResult& interval = results.interval;
   EXPECT_GE(interval.reached, earliest) << interval.why;
   EXPECT_LE(interval.reached, latest);
-  EXPECT_THAT(interval.why, testing::HasSubstr(why));
+  EXPECT_THAT(interval.why, ::testing::HasSubstr(why));
   for (std::size_t i = 0; i < results.time.size(); ++i)
     EXPECT_EQ(std::isnan(interval.at.lower(i, 0)) && std::isnan(interval.over.lower(i, 0)),
               results.time[i] > interval.reached)
@@ -329,7 +329,7 @@ TEST(PlayInLoops, EndsWhereASideMayVanish) {
   };
   EXPECT_GE(until("99").first, 0.9 * met);
   EXPECT_LE(until("99").first, met);
-  EXPECT_THAT(until("99").second, testing::HasSubstr("the loop 'pin' may"));
+  EXPECT_THAT(until("99").second, ::testing::HasSubstr("the loop 'pin' may"));
   EXPECT_EQ(until("101"), (std::pair<double, std::string>(1, "")));
 }
 
@@ -349,7 +349,7 @@ TEST(PlayInLoops, EndsWhereAnAngleMayBeHalfATurnFromItsCourse) {
                         "[mechanism.parameters]\nsweep = \"0.5 rad/s\"\n[[uncertain]]\nquantity = \"sweep\"\n" +
                         "interval = [\"0.5 rad/s\", \"" + most + " rad/s\"]\n");
   };
-  EXPECT_THAT(until("6").second, testing::HasSubstr("coupler.angle of the loop 'pin' may be half a turn"));
+  EXPECT_THAT(until("6").second, ::testing::HasSubstr("coupler.angle of the loop 'pin' may be half a turn"));
   EXPECT_GT(until("6").first, 0.3);
   EXPECT_LT(until("6").first, 0.9);
   EXPECT_EQ(until("2"), (std::pair<double, std::string>(1, "")));
