@@ -792,11 +792,15 @@ void EnsembleRun::takeFirst(const Envelope& expected, const Look& look) {
   first_.clear();
 }
 
-void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
+void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look,
+                                  const std::function<void(Archive&)>& besides) {
   bool isOver = false;
   do {
     SharedWork shared(options_.communicator);
-    shared.hold([this](Archive& all) { archiveOwnTimes(all); });
+    shared.hold([&](Archive& all) {
+      archiveOwnTimes(all);
+      if (besides) besides(all);
+    });
     const Sharing sharing(shared_, shared);
     shared.exchange(toldBegin, {}, {});
     if (!shared.isOver()) goOn(expected, look);

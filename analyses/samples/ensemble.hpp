@@ -124,8 +124,9 @@ class EnsembleRun {
   /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others,
   /// corners and centre behind the plan's samples, the points of the transformation, the extremes, and takes them.
   /// `expected`: where outputs are expected besides what the first samples say, such as an enclosure; NaN where nothing
-  /// is known, or empty.
-  void integrateOthers(const Envelope& expected = {}, const Look& look = {});
+  /// is known, or empty. `besides`: what each rank tells the others at the end of what its look has found.
+  void integrateOthers(const Envelope& expected = {}, const Look& look = {},
+                       const std::function<void(Archive&)>& besides = {});
   /// EnsembleOptions::extremes, which are known only now: before integrateOthers.
   void setExtremes(std::vector<std::vector<double>> extremes);
   /// While samples are integrated: whether it is to pause, asked from any thread, and what is done then, from the

@@ -231,6 +231,25 @@ void takeFirstSamples(Run& run, SampledMotion& samples, Results& results) {
   });
 }
 
+namespace {
+
+/// What a rank that was to stop left undecided is in its times of the statistics, so all are to know it.
+void archiveInterrupted(Archive& all, const Watch& watch, ComparisonResult& comparison) {
+  std::vector<DisputedSample> own;
+  if (!all.isReading()) std::ranges::copy_if(comparison.disputed, std::back_inserter(own), isInterrupted);
+  std::size_t count = own.size();
+  all(count);
+  own.resize(count);
+  for (DisputedSample& d : own) {
+    all(d.number, d.time, d.output, d.value, d.lower, d.upper, d.distance, d.error, d.decided, d.outside, d.level,
+        d.farthest);
+    if (all.isReading()) comparison.disputed.push_back(std::move(d));
+  }
+  if (all.isReading() && count > 0) comparison.why = watch.why();
+}
+
+}  // namespace
+
 void takeOtherSamples(Run& run, const Enclosure& enclosure, SampledMotion& samples, Results& results) {
   if (!samples.ensemble) return;
   const Study& study = run.study;
@@ -258,16 +277,19 @@ void takeOtherSamples(Run& run, const Enclosure& enclosure, SampledMotion& sampl
       ensemble.setExtremes(std::move(extremes));
     }
     const Pauses pauses(ensemble, checkpoint, state);
-    ensemble.integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
-      if (!run.moves()) moveSamples(run.machine, block);
-      settlement.settle(block, [&](const Comparison& found, int level) {
-        takeDisputes(run.watch, found, level, results.comparison);
-      });
-      if (samples.former) samples.former->meet(block, results.comparison.disputed);
-      noteRequirements(run, block, samples, results);
-      if (influence) influence->include(block);
-      if (block.first() <= last) keeper.keep(block);
-    });
+    ensemble.integrateOthers(
+        settlement.bounds(),
+        [&](SampleBlock& block) {
+          if (!run.moves()) moveSamples(run.machine, block);
+          settlement.settle(block, [&](const Comparison& found, int level) {
+            takeDisputes(run.watch, found, level, results.comparison);
+          });
+          if (samples.former) samples.former->meet(block, results.comparison.disputed);
+          noteRequirements(run, block, samples, results);
+          if (influence) influence->include(block);
+          if (block.first() <= last) keeper.keep(block);
+        },
+        [&](Archive& all) { archiveInterrupted(all, run.watch, results.comparison); });
     describeTransformation(study, ensemble, results);
     describeSamples(run, ensemble, results);
     if (influence) describeInfluence(study, *influence, ensemble.reachedTimes(), results.fuzzy.influence);
