@@ -77,7 +77,18 @@ ExitCode actAsRank(const Action& action, [[maybe_unused]] const StartedAs& start
     throw std::system_error(errno, std::generic_category(), "/dev/null");
   shareMemory(onOneMachine);
   setRanks(all.get());
-  const ExitCode code = action();
+  const auto act = [&] {
+    try {
+      return action();
+    } catch (const StudyError&) {  // all find it; who exits with a code of its own ends the first before it has said so
+      if (all->isFirst()) throw;
+      return done;
+    } catch (const UsageError&) {
+      if (all->isFirst()) throw;
+      return done;
+    }
+  };
+  const ExitCode code = act();
   setRanks(nullptr);
   return code;
 #else
