@@ -67,6 +67,13 @@ std::string complaintOf(const CLI::ParseError& error, const CLI::App& command) {
   return error.what();
 }
 
+/// Of bad input, which all ranks find.
+[[maybe_unused]] bool isRefusal(const std::exception& error) {
+  return dynamic_cast<const UsageError*>(&error) != nullptr || dynamic_cast<const StudyError*>(&error) != nullptr ||
+         dynamic_cast<const ResultsFileError*>(&error) != nullptr ||
+         dynamic_cast<const OutputRefused*>(&error) != nullptr;
+}
+
 /// Ranks but the first say nothing.
 ExitCode actAsRank(const Action& action, [[maybe_unused]] const StartedAs& started) {
 #ifdef GAMUT_MPI
@@ -80,11 +87,8 @@ ExitCode actAsRank(const Action& action, [[maybe_unused]] const StartedAs& start
   const auto act = [&] {
     try {
       return action();
-    } catch (const StudyError&) {  // all find it; who exits with a code of its own ends the first before it has said so
-      if (all->isFirst()) throw;
-      return done;
-    } catch (const UsageError&) {
-      if (all->isFirst()) throw;
+    } catch (const std::exception& error) {  // an exit code of another ends the first before it has said why
+      if (all->isFirst() || !isRefusal(error)) throw;
       return done;
     }
   };
