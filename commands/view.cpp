@@ -96,8 +96,8 @@ Action view(CLI::App& command) {
   command.add_flag("--quiet", arguments->quiet, "The address, and faults of the study, no more");
   command.add_flag("--force", arguments->force, "Overwrite existing files");
   command.footer(
-      "The page fills while the study runs. When its file is saved, or a robot or a table that it names, it runs "
-      "again;\n"
+      "The page fills while the study runs. When its file is saved, or a table, or a robot with its meshes that "
+      "it names, it runs again;\n"
       "until that has come to its end the page before it stays. Nobody but this machine can open the address. Ctrl-C "
       "ends it.");
   return [arguments] { return view(*arguments); };

@@ -148,10 +148,12 @@ class ComparisonPage {
     return html;
   }
 
-  /// Widths of motions that are known for other spans are no match.
+  /// Widths of motions that are known for other spans are no match. What only one of them has is not compared.
   bool isOfOneSpan() const {
-    return a_.horizon == b_.horizon && a_.interval.reached == b_.interval.reached &&
-           a_.stochastic.reached == b_.stochastic.reached;
+    const auto areOne = [](const Answer& a, const Answer& b) {
+      return !a.present || !b.present || a.reached == b.reached;
+    };
+    return a_.horizon == b_.horizon && areOne(a_.interval, b_.interval) && areOne(a_.stochastic, b_.stochastic);
   }
   static std::string spanOf(const Results& results) {
     if (!results.interval.present) return fmt::format("samples until {}", timeText(results.stochastic.reached));
