@@ -247,37 +247,41 @@ TEST(Requirement, AgreesWithTrajectories) {
   }
 }
 
+/// x(1) = a + b > limit, a of 2.5 ± 0.5, b of -0.5 ± 0.5.
+struct SumOfTwo {
+  explicit SumOfTwo(double limit)
+      : q(falling({2.0, 3.0}, {-1.0, 0.0}, [limit](const auto& x) { return x - limit; })),
+        uncertain{quantity(q.box[0], 2.5), quantity(q.box[1], -0.5)} {}
+
+  Question q;
+  std::vector<Uncertain> uncertain;
+  Tube tube = [&] {
+    FlowOptions flow;
+    flow.modelled = {0};
+    return Flow(q.f, q.g, flow).enclose(q.box, q.horizon, q.times);
+  }();
+  std::vector<CellQuantity> quantities{{0, &uncertain[0]}, {1, &uncertain[1]}};
+  CellQuestion question{When::always, {0}, {0}, 0, tube.reachedTimes() - 1};
+};
+
 /// One quantity deviates less, the other as much as it may.
 TEST(Requirement, KnowsHowMuchASingleQuantityMayDeviate) {
-  Question q = falling({2.0, 3.0}, {-1.0, 0.0}, [](const auto& x) { return x - 1.25; });
-  q.examine();
-  FlowOptions flow;
-  flow.modelled = {0};
-  const Tube tube = Flow(q.f, q.g, flow).enclose(q.box, q.horizon, q.times);
-  const std::vector<CellQuantity> quantities{{0, &q.uncertain[0]}, {1, &q.uncertain[1]}};
-  const CellQuestion question{When::always, {0}, {0}, 0, tube.reachedTimes() - 1};
+  const SumOfTwo sum(1.25);
   // 2.5 - 0.5 f + (-1) > 1.25: f = 0.5; both: 2 - f > 1.25.
-  EXPECT_NEAR(guaranteedFactor(*tube.models(), question, quantities, {1, 0}), 0.5, 0.003);
-  EXPECT_NEAR(guaranteedFactor(*tube.models(), question, quantities, {0, 1}), 0.5, 0.003);
-  EXPECT_NEAR(guaranteedFactor(*tube.models(), question, quantities, {1, 1}), 0.75, 0.003);
-  EXPECT_EQ(guaranteedFactor(*tube.models(), question, quantities, {0, 0}), 0);
+  EXPECT_NEAR(guaranteedFactor(*sum.tube.models(), sum.question, sum.quantities, {1, 0}), 0.5, 0.003);
+  EXPECT_NEAR(guaranteedFactor(*sum.tube.models(), sum.question, sum.quantities, {0, 1}), 0.5, 0.003);
+  EXPECT_NEAR(guaranteedFactor(*sum.tube.models(), sum.question, sum.quantities, {1, 1}), 0.75, 0.003);
+  EXPECT_EQ(guaranteedFactor(*sum.tube.models(), sum.question, sum.quantities, {0, 0}), 0);
 }
 
-/// x(1) = a + b > limit, a of 2.5 ± 0.5, b of -0.5 ± 0.5: with b = -1, a may fall to 1 + limit; and the other way
-/// round.
+/// With b = -1, a may fall to 1 + limit; and the other way round.
 TEST(Requirement, EnclosesHowMuchOneQuantityMustDeviateLessAlone) {
   for (const double limit : {1.0625, 1.125, 1.25, 1.375, 1.484375, 1.5, 1.5625, 1.75, 2.25}) {
     SCOPED_TRACE(limit);
-    Question q = falling({2.0, 3.0}, {-1.0, 0.0}, [limit](const auto& x) { return x - limit; });
-    q.examine();
-    FlowOptions flow;
-    flow.modelled = {0};
-    const Tube tube = Flow(q.f, q.g, flow).enclose(q.box, q.horizon, q.times);
-    const std::vector<CellQuantity> quantities{{0, &q.uncertain[0]}, {1, &q.uncertain[1]}};
-    const CellQuestion question{When::always, {0}, {0}, 0, tube.reachedTimes() - 1};
+    const SumOfTwo sum(limit);
     const double exact = std::max(0.0, 3 - 2 * limit);  // all of these are doubles
     for (const std::size_t alone : {0, 1}) {
-      const Interval found = factorAlone(*tube.models(), question, quantities, alone);
+      const Interval found = factorAlone(*sum.tube.models(), sum.question, sum.quantities, alone);
       EXPECT_LE(found.lower(), exact);
       EXPECT_GE(found.upper(), exact);
       EXPECT_LT(width(found), 0.01);
