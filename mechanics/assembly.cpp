@@ -185,11 +185,8 @@ std::vector<double> leastOpening(System<double>& system) {
   const Eigen::MatrixXd jacobian = jacobianOfLoops(system).rightCols(static_cast<Eigen::Index>(system.dependents()));
   if (jacobian.cols() == 0) return {};
   constexpr double nothing = 1e-9;  // where fewer rows are independent than there are such positions
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposed;
-  decomposed.setThreshold(nothing);
-  decomposed.compute(jacobian);
   const Eigen::VectorXd by =
-      decomposed.solve(Eigen::Map<const Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size())));
+      leastSquares(jacobian, Eigen::VectorXd::Map(rows.data(), static_cast<Eigen::Index>(rows.size())), nothing);
   return {by.begin(), by.end()};
 }
 

@@ -19,10 +19,10 @@ ScaledMatrix::ScaledMatrix(const Matrix& m) : matrix(m) {
 }
 
 Vector ScaledMatrix::solve(const Vector& right) const {
-  return column.asDiagonal() * Vector(matrix.fullPivLu().solve(row.asDiagonal() * right));
+  return column.asDiagonal() * safelySolved(matrix, row.asDiagonal() * right);
 }
 
-Matrix ScaledMatrix::inverse() const { return column.asDiagonal() * matrix.fullPivLu().inverse() * row.asDiagonal(); }
+Matrix ScaledMatrix::inverse() const { return column.asDiagonal() * inverseOf(matrix) * row.asDiagonal(); }
 
 ReducedMotion::ReducedMotion(const RestRows& of, const LinearRows<double>& at)
     : ReducedMotion(of, squareMatrix(at.byPosition, of.size), squareMatrix(at.byRate, of.size),
@@ -32,8 +32,8 @@ ReducedMotion::ReducedMotion(const RestRows& of, const Matrix& f0, const Matrix&
   const int n = of.coordinates;
   tangents = Matrix::Identity(n, n);
   if (of.loops > 0) {
-    const Matrix kernel = f0.block(f0.rows() - of.loops, 0, of.loops, n).fullPivLu().kernel();
-    tangents = Eigen::HouseholderQR<Matrix>(kernel).householderQ() * Matrix::Identity(n, kernel.cols());
+    const Matrix kernel = kernelOf(f0.block(f0.rows() - of.loops, 0, of.loops, n));
+    tangents = orthogonalFactorOf(kernel, kernel.cols());
   }
   const auto along = [&](const Matrix& f) { return Matrix(-tangents.transpose() * f.topLeftCorner(n, n) * tangents); };
   stiffness = along(f0);

@@ -16,19 +16,18 @@ std::vector<std::complex<double>> eigenvaluesOf(const RestRows& of, const Linear
   const Matrix f0 = squareMatrix(at.byPosition, of.size), f1 = squareMatrix(at.byRate, of.size);
   const ReducedMotion reduced(of, at);
   const int f = static_cast<int>(reduced.mass.rows()), n = of.coordinates, z = of.ownStates;
-  const auto mass = reduced.mass.fullPivLu();
-  if (!mass.isInvertible()) refuseMassless(of);
+  if (!isInvertible(reduced.mass)) refuseMassless(of);
   Matrix a = Matrix::Zero(2 * f + z, 2 * f + z);
   a.block(0, f, f, f).setIdentity();
-  a.block(f, 0, f, f) = -mass.solve(reduced.stiffness);
-  a.block(f, f, f, f) = -mass.solve(reduced.damping);
+  a.block(f, 0, f, f) = -safelySolved(reduced.mass, reduced.stiffness);
+  a.block(f, f, f, f) = -safelySolved(reduced.mass, reduced.damping);
   if (z > 0) {
-    a.block(f, 2 * f, f, z) = mass.solve(reduced.tangents.transpose() * f0.block(0, n, n, z));
+    a.block(f, 2 * f, f, z) = safelySolved(reduced.mass, reduced.tangents.transpose() * f0.block(0, n, n, z));
     a.block(2 * f, 0, z, f) = f0.block(n, 0, z, n) * reduced.tangents;
     a.block(2 * f, f, z, f) = f1.block(n, 0, z, n) * reduced.tangents;
     a.block(2 * f, 2 * f, z, z) = f0.block(n, n, z, z);
   }
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Matrix>(a, false).eigenvalues();
+  const Eigen::VectorXcd values = eigenvaluesOf(a);
   std::vector<std::complex<double>> all(values.begin(), values.end());
   std::ranges::stable_sort(all, {}, [](const std::complex<double>& s) { return std::abs(s); });
   return all;
@@ -49,7 +48,7 @@ Eigen::VectorXcd leastMoved(const Eigen::MatrixXcd& m) {
   const Eigen::Index n = m.rows();
   Matrix parts(2 * n, 2 * n);
   parts << m.real(), -m.imag(), m.imag(), m.real();
-  const Vector v = Eigen::JacobiSVD<Matrix>(parts, Eigen::ComputeFullV).matrixV().col(2 * n - 1);
+  const Vector v = rightSingularVectorsOf(parts).col(2 * n - 1);
   return v.head(n) + std::complex<double>(0, 1) * v.tail(n);
 }
 

@@ -40,7 +40,7 @@ std::vector<double> settled(const RestRows& of, std::vector<double> v, std::span
     }
     const auto descends = [&] {
       const Matrix sum = reduced.stiffness + resistance * reduced.mass;
-      return of.ownStates > 0 || Matrix(0.5 * (sum + sum.transpose())).llt().info() == Eigen::Success;
+      return of.ownStates > 0 || choleskyFactorOf(0.5 * (sum + sum.transpose()));
     };
     constexpr int mostRaised = 60;
     for (int k = 0; k < mostRaised && !descends(); ++k) resistance = std::max(4 * resistance, 1e-6);
@@ -96,9 +96,9 @@ std::vector<Recorded> rooted(const RestRows& of, std::vector<Recorded> v, std::s
 void refuseLoose(const RestRows& of, const LinearRows<double>& at) {
   constexpr double none = 1e-11;
   const ScaledMatrix scaled(squareMatrix(at.byPosition, of.size));
-  const Eigen::JacobiSVD<Matrix> svd(scaled.matrix, Eigen::ComputeFullV);
-  if (svd.singularValues()[of.size - 1] > none * svd.singularValues()[0]) return;
-  const Vector loose = scaled.column.asDiagonal() * svd.matrixV().col(of.size - 1);
+  const Vector numbers = singularValuesOf(scaled.matrix);
+  if (numbers[of.size - 1] > none * numbers[0]) return;
+  const Vector loose = scaled.column.asDiagonal() * rightSingularVectorsOf(scaled.matrix).col(of.size - 1);
   Eigen::Index which = 0;
   loose.head(of.coordinates + of.ownStates).cwiseAbs().maxCoeff(&which);
   throw UnfitPart(

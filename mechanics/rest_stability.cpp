@@ -98,15 +98,15 @@ struct FirstOrder {
 
 /// X = Σ ∓ w w̄ᵀ, w the eigenvectors from the left of what has real parts ±; symmetric to the last bit.
 std::optional<Matrix> lyapunovOf(const FirstOrder& motion) {
-  const auto p = middleOf(motion.p).fullPivLu();
-  if (!p.isInvertible()) return {};
-  const Matrix a = middleOf(motion.q) * p.inverse();  // of z = P y
-  const Eigen::EigenSolver<Matrix> solver(a.transpose());
-  if (solver.info() != Eigen::Success) return {};
-  const Eigen::MatrixXcd w = solver.eigenvectors();
+  const Matrix p = middleOf(motion.p);
+  if (!isInvertible(p)) return {};
+  const Matrix a = middleOf(motion.q) * inverseOf(p);  // of z = P y
+  const std::optional<EigenPairs> pairs = eigenPairsOf(a.transpose());
+  if (!pairs) return {};
+  const Eigen::MatrixXcd& w = pairs->vectors;
   Matrix x = Matrix::Zero(a.rows(), a.rows());
   for (Eigen::Index i = 0; i < a.rows(); ++i)
-    x -= (solver.eigenvalues()[i].real() < 0 ? -1.0 : 1.0) * (w.col(i) * w.col(i).adjoint()).real();
+    x -= (pairs->values[i].real() < 0 ? -1.0 : 1.0) * (w.col(i) * w.col(i).adjoint()).real();
   if (!x.array().isFinite().all()) return {};
   return Matrix(x.selfadjointView<Eigen::Lower>());
 }
@@ -186,7 +186,7 @@ std::optional<NearRest> NearRest::reduced() const {
   if (loops == 0) return *this;
   if (!areBounded(held)) return {};
   const Intervals g = matrixOf(held, loops, n);
-  const Eigen::VectorXi order = middleOf(g).fullPivLu().permutationQ().indices();  // those that are solved for first
+  const Eigen::VectorXi order = columnOrderOf(middleOf(g));  // those that are solved for first
   Intervals solvedFor(loops, loops), others(loops, f);
   for (int j = 0; j < loops; ++j) solvedFor.col(j) = g.col(order[j]);
   for (int j = 0; j < f; ++j) others.col(j) = -g.col(order[loops + j]);
@@ -239,7 +239,7 @@ std::optional<int> negativeEigenvalues(const std::vector<Interval>& k, int n) {
       scale[j] = most > 0 ? 1 / most : 1.0;
     }
   const Matrix scaled = scale.asDiagonal() * Matrix(0.5 * (middle + middle.transpose())) * scale.asDiagonal();
-  const Matrix t = scale.asDiagonal() * Eigen::SelfAdjointEigenSolver<Matrix>(scaled).eigenvectors();
+  const Matrix t = scale.asDiagonal() * symmetricEigenvectorsOf(scaled);
   int negatives = 0;
   for (int a = 0; a < n; ++a) {
     Interval disc(0.0);

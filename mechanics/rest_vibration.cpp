@@ -185,12 +185,12 @@ RestVibration vibrationOf(const RestRows& of, const std::vector<double>& v, cons
   const std::vector<double> all = evaluate<double>(vibration.pencil, v, values);
   const std::span<const double> entries = std::span<const double>(all).subspan(of.size);
   const Matrix mass = symmetricMatrix(entries.last(triangle), f);
-  if (Eigen::LLT<Matrix>(mass).info() != Eigen::Success || !mass.fullPivLu().isInvertible()) refuseMassless(of);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(symmetricMatrix(entries.first(triangle), f), mass);
-  vibration.squares.assign(solver.eigenvalues().begin(), solver.eigenvalues().end());
+  if (!choleskyFactorOf(mass) || !isInvertible(mass)) refuseMassless(of);
+  const PencilPairs pairs = pencilPairsOf(symmetricMatrix(entries.first(triangle), f), mass);
+  vibration.squares.assign(pairs.values.begin(), pairs.values.end());
   for (int i = 0; i < f; ++i)
-    for (int j = 0; j < f; ++j) vibration.basis.push_back(solver.eigenvectors()(i, j));
-  vibration.unstable = static_cast<int>((solver.eigenvalues().array() <= 0).count());
+    for (int j = 0; j < f; ++j) vibration.basis.push_back(pairs.vectors(i, j));
+  vibration.unstable = static_cast<int>((pairs.values.array() <= 0).count());
   for (const int mode : wanted)
     if (vibration.unstable + mode <= f) vibration.modes.push_back(mode - 1);
   constexpr double coarse = 0.2;  // an error of the shape enters the quotient squared
@@ -205,10 +205,8 @@ std::vector<double> squaresOf(std::span<const double> triangles, int size) {
   const int triangle = size * (size + 1) / 2;
   if (!std::ranges::all_of(triangles, [](double x) { return std::isfinite(x); }))
     return std::vector<double>(size, std::numeric_limits<double>::quiet_NaN());
-  const Vector squares = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(
-                             symmetricMatrix(triangles.first(triangle), size),
-                             symmetricMatrix(triangles.last(triangle), size), Eigen::EigenvaluesOnly)
-                             .eigenvalues();
+  const Vector squares =
+      pencilValuesOf(symmetricMatrix(triangles.first(triangle), size), symmetricMatrix(triangles.last(triangle), size));
   return {squares.begin(), squares.end()};
 }
 

@@ -100,7 +100,7 @@ std::vector<Interval> discsOf(const Symmetric& a) {
   return discs;
 }
 
-Matrix eigenvectorsOf(const Symmetric& a) { return Eigen::SelfAdjointEigenSolver<Matrix>(a.middle()).eigenvectors(); }
+Matrix eigenvectorsOf(const Symmetric& a) { return symmetricEigenvectorsOf(a.middle()); }
 
 /// How many eigenvalues are certainly above zero: of TᵀAT those of so many rows, which alone are positive definite, and
 /// so is A on the columns of T that belong to them (A. L. Cauchy).
@@ -514,16 +514,12 @@ struct EigenvalueBounds::Piece {
     return least.isKnown() && positives(least) == f;
   }
 
-  static Vector eigenvaluesOf(const Matrix& k, const Matrix& m) {
-    return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(k, m, Eigen::EigenvaluesOnly).eigenvalues();
-  }
-
   /// A number that λ is not below (or above) anywhere; nothing where none is proved. `atCorner`: at(), kept.
   template <class AtCorner>
   std::optional<double> end(int number, const Box& part, bool isLower, const AtCorner& atCorner) const {
     const At& centre = atCorner(middleOf(part));
     if (!centre.stiffness.isKnown() || !centre.mass.isKnown()) return {};
-    double sigma = eigenvaluesOf(centre.stiffness.middle(), centre.mass.middle())[number], largest = 0;
+    double sigma = pencilValuesOf(centre.stiffness.middle(), centre.mass.middle())[number], largest = 0;
     const auto boundAt = [&](double at) { return boundOn(part, isLower, [&](int i) { return slopeBounds(i, at); }); };
     constexpr int rounds = 4;
     for (int round = 0; round < rounds; ++round) {
@@ -531,7 +527,7 @@ struct EigenvalueBounds::Piece {
       const Bound bound = boundAt(sigma);
       const At& there = atCorner(bound.corner);
       if (!bound.loss.isKnown() || !there.stiffness.isKnown() || !there.mass.isKnown()) return {};
-      const Vector all = eigenvaluesOf(there.stiffness.middle() + bound.loss.middle(), there.mass.middle());
+      const Vector all = pencilValuesOf(there.stiffness.middle() + bound.loss.middle(), there.mass.middle());
       if (!all.array().isFinite().all()) return {};
       const double before = std::exchange(sigma, all[number]);
       largest = all.cwiseAbs().maxCoeff();
@@ -780,8 +776,7 @@ struct EigenvalueBounds::Piece::Expansion {
 EigenvalueBounds::Piece::Turned EigenvalueBounds::Piece::turnedOn(const Box& part) const {
   const At middle = at(middleOf(part));
   Turned turned{{}, {}, {}, {}, {}, {}, {}, {}, Symmetric(f)};
-  turned.t =
-      Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(middle.stiffness.middle(), middle.mass.middle()).eigenvectors();
+  turned.t = pencilPairsOf(middle.stiffness.middle(), middle.mass.middle()).vectors;
   const auto seen = [&](const Symmetric& each) { return congruent(turned.t, each); };
   const Symmetric inertia = seen(middle.mass);
   turned.stiffness = seen(middle.stiffness).whole();
@@ -1038,7 +1033,8 @@ EigenvalueBounds::Piece::Basis EigenvalueBounds::Piece::basisOn(const Box& part,
   const auto middle = [](const Intervals& a) {
     return Matrix(a.unaryExpr([](const Interval& x) { return midpoint(x); }));
   };
-  const Matrix b = middle(w.middleCols(cluster.first, m)) * middle(seen.middleCols(cluster.first, m)).inverse();
+  const Matrix b = middle(w.middleCols(cluster.first, m)) *
+                   solved(middle(seen.middleCols(cluster.first, m)), Matrix::Identity(m, m));
   spread = loss = 0;
   Intervals all = exactly(b) + along(w - exactly(b) * seen) * *inverse;
   for (int r = 0; r < m; ++r)

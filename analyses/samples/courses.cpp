@@ -103,7 +103,7 @@ double fastestTurn(const Program& f, const std::vector<double>& start) {
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
       values.data() + n, n, n);
   if (!jacobian.allFinite()) return 0;
-  return Eigen::EigenSolver<Eigen::MatrixXd>(jacobian, false).eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvaluesOf(jacobian).cwiseAbs().maxCoeff();
 }
 
 }  // namespace gamut

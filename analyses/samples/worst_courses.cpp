@@ -149,7 +149,7 @@ class Sweeper {
       if (!here.allFinite() || !linear.inputs.back().allFinite()) return false;
       if (i > 0) {  // of order three, and what is stiff comes to nothing
         const Matrix z = 0.5 * (grid_[i] - grid_[i - 1]) * (before + here);
-        linear.transition.emplace_back((one - 2.0 / 3 * z + 1.0 / 6 * z * z).partialPivLu().solve(one + 1.0 / 3 * z));
+        linear.transition.emplace_back(solved(one - 2.0 / 3 * z + 1.0 / 6 * z * z, one + 1.0 / 3 * z));
         Work::count(Work::matrixTerm, 3.0 * static_cast<double>(n_ * n_ * n_));
       }
       std::swap(before, here);

@@ -10,7 +10,7 @@ namespace gamut {
 namespace {
 
 double leastSingularValue(const Eigen::MatrixXd& matrix) {
-  return matrix.allFinite() ? matrix.jacobiSvd().singularValues().minCoeff() : 0.0;
+  return matrix.allFinite() ? singularValuesOf(matrix).minCoeff() : 0.0;
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ Eigen::MatrixXd inertiaAlongLoops(System<double>& system) {
   const Eigen::Index n = system.degreesOfFreedom(), m = static_cast<Eigen::Index>(system.dependents()), f = n - m;
   const Eigen::MatrixXd inertia = system.inertiaMatrix(), jacobian = jacobianOfLoops(system);
   Eigen::MatrixXd tangents = Eigen::MatrixXd::Identity(n, f);
-  tangents.bottomRows(m) = -jacobian.rightCols(m).partialPivLu().solve(jacobian.leftCols(f));
+  tangents.bottomRows(m) = -solved(jacobian.rightCols(m), jacobian.leftCols(f));
   Eigen::MatrixXd felt = tangents.transpose() * inertia * tangents;
   const Eigen::MatrixXd terms = tangents.cwiseAbs().transpose() * inertia.cwiseAbs() * tangents.cwiseAbs();
   constexpr double rounding = 1e-13;
@@ -88,8 +88,7 @@ std::vector<std::string> loopsAlike(const Mechanism& mechanism, System<double>& 
   constexpr double some = 0.1;  // of the greatest number
   const Eigen::MatrixXd jacobian = jacobianOfLoops(system);
   if (jacobian.rows() == 0 || !jacobian.allFinite()) return {};
-  const Eigen::JacobiSVD<Eigen::MatrixXd> rows(jacobian, Eigen::ComputeFullU);
-  const Eigen::VectorXd numbers = rows.matrixU().col(jacobian.rows() - 1).cwiseAbs();
+  const Eigen::VectorXd numbers = leftSingularVectorsOf(jacobian).col(jacobian.rows() - 1).cwiseAbs();
   std::vector<std::string> names;
   Eigen::Index first = 0;
   for (const Mechanism::Closed& loop : mechanism.loops()) {
@@ -122,14 +121,13 @@ LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
     rest -= direction * (direction.transpose() * rest);
   }
   LoopGrip grip{leastSingularValue(jacobian.rightCols(m)) / leastSingularValue(best), {}, 0.0, {}};
-  const Eigen::VectorXd all = jacobianOfLoops(system).jacobiSvd().singularValues();
+  const Eigen::VectorXd all = singularValuesOf(jacobianOfLoops(system));
   grip.firmness = all.minCoeff() / all.maxCoeff();
   for (std::size_t j = 0; j < isTaken.size(); ++j)
     if (isTaken[j] != 0) grip.best.push_back(coordinates[j]->name);
-  grip.determinant = jacobian.rightCols(m).partialPivLu().determinant();
+  grip.determinant = determinantOf(jacobian.rightCols(m));
   constexpr double some = 0.1;  // of the most that one moves
-  const Eigen::JacobiSVD<Eigen::MatrixXd> held(jacobian.rightCols(m), Eigen::ComputeFullV);
-  const Eigen::VectorXd loose = held.matrixV().col(m - 1).cwiseAbs();
+  const Eigen::VectorXd loose = rightSingularVectorsOf(jacobian.rightCols(m)).col(m - 1).cwiseAbs();
   for (Eigen::Index i = 0; i < m; ++i)
     if (loose[i] > some * loose.maxCoeff()) grip.loose.push_back(mechanism.dependents()[static_cast<std::size_t>(i)]);
   return grip;
@@ -156,7 +154,7 @@ NearestClosing nearestClosing(System<double>& system, std::vector<double> at,
     for (; !isBetter && damping < farthest; damping *= isBetter ? 0.1 : 10) {
       Eigen::MatrixXd damped = normal;
       damped.diagonal().array() += damping * std::max(normal.diagonal().maxCoeff(), 0x1p-1000);
-      const Eigen::VectorXd step = damped.ldlt().solve(gradient);
+      const Eigen::VectorXd step = symmetricSolved(damped, gradient);
       std::vector<double> next = at;
       for (Eigen::Index k = 0; k < m; ++k) next[static_cast<std::size_t>(k)] -= step[k];
       const Eigen::VectorXd rest = rowsAt(next);

@@ -104,7 +104,7 @@ NearestMean nearestMean(const std::vector<Eigen::Vector3d>& points) {
       edges.col(k) = points[chosen[static_cast<std::size_t>(k) + 1]] - points[chosen[0]];
     const Eigen::VectorXd along =
         n == 0 ? Eigen::VectorXd()
-               : Eigen::VectorXd((edges.transpose() * edges).fullPivLu().solve(-edges.transpose() * points[chosen[0]]));
+               : Eigen::VectorXd(safelySolved(edges.transpose() * edges, -edges.transpose() * points[chosen[0]]));
     if (n > 0 && (!(along.minCoeff() >= 0) || !(along.sum() <= 1))) continue;
     const Eigen::Vector3d place = n == 0 ? points[chosen[0]] : Eigen::Vector3d(points[chosen[0]] + edges * along);
     if (!(place.squaredNorm() < least)) continue;

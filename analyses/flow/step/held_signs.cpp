@@ -115,9 +115,9 @@ bool HeldSigns::decides(double from, double to) const {
   Eigen::MatrixXd S(K, K);
   for (Eigen::Index k = 0; k < K; ++k)
     for (Eigen::Index j = 0; j < K; ++j) S(k, j) = midpoint(entry(k, j));
-  const Eigen::LLT<Eigen::MatrixXd> factor(S);
-  if (factor.info() != Eigen::Success) return false;
-  const Eigen::MatrixXd B = factor.matrixL().solve(Eigen::MatrixXd::Identity(K, K));
+  const std::optional<Eigen::MatrixXd> factor = choleskyFactorOf(S);
+  if (!factor) return false;
+  const Eigen::MatrixXd B = lowerSolved(*factor, Eigen::MatrixXd::Identity(K, K));
   for (Eigen::Index k = 0; k < K; ++k) {
     Interval dominant(0.0);
     std::vector<Interval> row(K, Interval(0.0));  // of B S

@@ -67,7 +67,7 @@ Eigen::MatrixXd FlowInputs::solve(Course& course, double sigma) const {
     for (int k = 0; k < count(); ++k)
       course.B(i, k) = horner(course.series.series(node(course.series, i, k)), order_ - 1);
   }
-  return course.psi.partialPivLu().solve(course.B);
+  return solved(course.psi, course.B);
 }
 
 /// How fast B̃ - Ψ̃ĝ moves, |ĝ| = g.

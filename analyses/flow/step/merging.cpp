@@ -38,12 +38,12 @@ struct Directions {
 Directions directionsOf(const Matrices& generators, const Monomials& m, const Vector& unit) {
   const Eigen::Index n = unit.size(), count = generators[0].cols();
   const std::size_t powers = generators.size();
-  const Eigen::ColPivHouseholderQR<Matrix> qr(unit.cwiseInverse().asDiagonal() * generators[0]);
-  const Matrix turn = Matrix(qr.householderQ()).transpose() * unit.cwiseInverse().asDiagonal();  // QᵀD⁻¹
+  const PivotedFactor qr = pivotedFactorOf(unit.cwiseInverse().asDiagonal() * generators[0]);
+  const Matrix turn = qr.q.transpose() * unit.cwiseInverse().asDiagonal();  // QᵀD⁻¹
   Matrices y, c(powers, Matrix::Zero(n, count)), across(powers, Matrix::Zero(n, n));
   for (const Matrix& power : generators) y.emplace_back(turn * power);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::Index pivot = qr.colsPermutation().indices()(k), below = n - k;
+    const Eigen::Index pivot = qr.order(k), below = n - k;
     for (std::size_t g = 0; g < powers; ++g) across[g].col(k).tail(below) = y[g].col(pivot).tail(below);
     for (std::size_t g = 0; g < powers; ++g) {  // the product of powers a and b is g; c_g is still zero
       const auto pairs = std::span(m.pairs()).subspan(at(m.first()[g]), at(m.first()[g + 1] - m.first()[g]));
@@ -54,8 +54,8 @@ Directions directionsOf(const Matrices& generators, const Monomials& m, const Ve
     }
   }
   Directions found;
-  for (const Matrix& power : across) found.p.emplace_back(unit.asDiagonal() * (qr.householderQ() * power));
-  found.inverse = (across[0].triangularView<Eigen::Lower>().solve(turn)).cwiseAbs();
+  for (const Matrix& power : across) found.p.emplace_back(unit.asDiagonal() * (qr.q * power));
+  found.inverse = lowerSolved(across[0], turn).cwiseAbs();
   // ρ: what is left, of p pairs n products and as many sums, p (n + 1) + 1 roundings; and what lies beyond the degree.
   const int degree = m.grade(static_cast<int>(powers) - 1);
   Matrices high(at(degree) + 1, Matrix::Zero(n, n)), size(high.size(), Matrix::Zero(n, count));  // by grade

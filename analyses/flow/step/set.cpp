@@ -178,7 +178,7 @@ std::optional<PrincipalAxes> principalAxesOf(const FlowSet& set) {
   H.leftCols(n) = inverse.asDiagonal() * (C * R.asDiagonal());
   H.rightCols(generators.cols()) = inverse.asDiagonal() * (C * generators);
   const Eigen::VectorXd rounding = inverse.asDiagonal() * ((n + 1) * bounds::unit * (C.cwiseAbs() * radius));
-  const Matrix U = Eigen::SelfAdjointEigenSolver<Matrix>(H * H.transpose()).eigenvectors();
+  const Matrix U = symmetricEigenvectorsOf(H * H.transpose());
   const double phi = orthogonalityDefect(U);
   if (!(phi < 0.5)) return std::nullopt;
   // |U⁻¹H_j s_j| summed: the half-widths along the axes; the product UᵀH has n roundings an entry.

@@ -337,7 +337,7 @@ void FlowStepper::turnFrame(FlowSet& set) {
     total(j) = end_.total[order[j]];
     w(j) = end_.loose[j] / unit(j);
   }
-  const Matrix Q = Eigen::HouseholderQR<Matrix>(sorted).householderQ();
+  const Matrix Q = orthogonalFactorOf(sorted, n_);
   Matrix T = Q.transpose() * sorted;
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < i; ++j) T(i, j) = 0;
