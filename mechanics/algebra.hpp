@@ -18,6 +18,57 @@ using Vector3 = Eigen::Matrix<S, 3, 1>;
 template <class S>
 using Matrix3 = Eigen::Matrix<S, 3, 3>;
 
+// Sums and products of plain ones, compiled once for each scalar of the library (algebra_members.hpp), as expressions
+// of Eigen's would be wherever they stand: these are what takes longest to compile in elements.
+template <class S>
+Vector3<S> operator+(const Vector3<S>& a, const Vector3<S>& b);
+template <class S>
+Vector3<S> operator-(const Vector3<S>& a, const Vector3<S>& b);
+template <class S>
+Vector3<S> operator-(const Vector3<S>& a);
+template <class S>
+Vector3<S> operator*(const Vector3<S>& a, const S& factor);
+template <class S>
+Vector3<S> operator*(const S& factor, const Vector3<S>& a);
+template <class S>
+Vector3<S>& operator+=(Vector3<S>& sum, const Vector3<S>& a);
+template <class S>
+Vector3<S>& operator-=(Vector3<S>& rest, const Vector3<S>& a);
+template <class S>
+Matrix3<S> operator+(const Matrix3<S>& a, const Matrix3<S>& b);
+template <class S>
+Matrix3<S> operator-(const Matrix3<S>& a, const Matrix3<S>& b);
+template <class S>
+Vector3<S> operator*(const Matrix3<S>& a, const Vector3<S>& b);
+template <class S>
+Vector3<S> operator*(const Eigen::Transpose<Matrix3<S>>& a, const Vector3<S>& b);
+template <class S>
+Vector3<S> operator*(const Eigen::Transpose<const Matrix3<S>>& a, const Vector3<S>& b);
+template <class S>
+Matrix3<S> operator*(const Matrix3<S>& a, const Matrix3<S>& b);
+template <class S>
+Matrix3<S> operator*(const Eigen::Transpose<Matrix3<S>>& a, const Matrix3<S>& b);
+template <class S>
+Matrix3<S> operator*(const Eigen::Transpose<const Matrix3<S>>& a, const Matrix3<S>& b);
+
+#define GAMUT_SMALL_ALGEBRA(KEYWORD, S)                                                                    \
+  KEYWORD template Vector3<S> operator+(const Vector3<S>& a, const Vector3<S>& b);                         \
+  KEYWORD template Vector3<S> operator-(const Vector3<S>& a, const Vector3<S>& b);                         \
+  KEYWORD template Vector3<S> operator-(const Vector3<S>& a);                                              \
+  KEYWORD template Vector3<S> operator*(const Vector3<S>& a, const S& factor);                             \
+  KEYWORD template Vector3<S> operator*(const S& factor, const Vector3<S>& a);                             \
+  KEYWORD template Vector3<S>& operator+=(Vector3<S>& sum, const Vector3<S>& a);                           \
+  KEYWORD template Vector3<S>& operator-=(Vector3<S>& rest, const Vector3<S>& a);                          \
+  KEYWORD template Matrix3<S> operator+(const Matrix3<S>& a, const Matrix3<S>& b);                         \
+  KEYWORD template Matrix3<S> operator-(const Matrix3<S>& a, const Matrix3<S>& b);                         \
+  KEYWORD template Vector3<S> operator*(const Matrix3<S>& a, const Vector3<S>& b);                         \
+  KEYWORD template Vector3<S> operator*(const Eigen::Transpose<Matrix3<S>>& a, const Vector3<S>& b);       \
+  KEYWORD template Vector3<S> operator*(const Eigen::Transpose<const Matrix3<S>>& a, const Vector3<S>& b); \
+  KEYWORD template Matrix3<S> operator*(const Matrix3<S>& a, const Matrix3<S>& b);                         \
+  KEYWORD template Matrix3<S> operator*(const Eigen::Transpose<Matrix3<S>>& a, const Matrix3<S>& b);       \
+  KEYWORD template Matrix3<S> operator*(const Eigen::Transpose<const Matrix3<S>>& a, const Matrix3<S>& b);
+GAMUT_FOR_EVERY_SCALAR(GAMUT_SMALL_ALGEBRA, extern)
+
 template <class S>
 Vector3<S> zeroVector() {
   return Vector3<S>(S(0.0), S(0.0), S(0.0));

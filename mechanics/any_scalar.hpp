@@ -2,6 +2,7 @@
 // (scalars.hpp).
 #pragma once
 
+#include "mechanics/algebra_members.hpp"
 #include "mechanics/bodies_members.hpp"
 #include "mechanics/element_members.hpp"
 #include "mechanics/equations/system_members.hpp"

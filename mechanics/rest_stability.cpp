@@ -205,7 +205,7 @@ RestStability stabilityOf(const NearRest& reduced, int negatives) {
   using enum RestStability;
   const int n = reduced.n;
   const RestStability byStiffness = negatives == 0 ? stable : unstable;
-  if (std::ranges::all_of(reduced.damping, isZero)) return byStiffness;
+  if (std::ranges::all_of(reduced.damping, [](const Interval& x) { return isZero(x); })) return byStiffness;
   for (const auto* matrix : {&reduced.stiffness, &reduced.damping, &reduced.mass})
     if (!areBounded(*matrix)) return unknown;
   const Intervals c = matrixOf(reduced.damping, n, n);
