@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <new>
@@ -67,42 +66,8 @@ std::string complaintOf(const CLI::ParseError& error, const CLI::App& command) {
   return error.what();
 }
 
-/// Of bad input, which all ranks find.
-[[maybe_unused]] bool isRefusal(const std::exception& error) {
-  return dynamic_cast<const UsageError*>(&error) != nullptr || dynamic_cast<const StudyError*>(&error) != nullptr ||
-         dynamic_cast<const ResultsFileError*>(&error) != nullptr ||
-         dynamic_cast<const OutputRefused*>(&error) != nullptr;
-}
-
-/// Ranks but the first say nothing.
-ExitCode actAsRank(const Action& action, [[maybe_unused]] const StartedAs& started) {
-#ifdef GAMUT_MPI
-  int onOneMachine = 1;
-  const std::unique_ptr<Communicator> all = startedByMpi(onOneMachine);
-  if (!all->isFirst() &&
-      (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr))
-    throw std::system_error(errno, std::generic_category(), "/dev/null");
-  shareMemory(onOneMachine);
-  setRanks(all.get());
-  const auto act = [&] {
-    try {
-      return action();
-    } catch (const std::exception& error) {  // an exit code of another ends the first before it has said why
-      if (all->isFirst() || !isRefusal(error)) throw;
-      return done;
-    }
-  };
-  const ExitCode code = act();
-  setRanks(nullptr);
-  return code;
-#else
-  static_cast<void>(action);
-  throw UsageError(fmt::format("was started as {} processes, and built without MPI; expected one, or a build with MPI",
-                               started.count));
-#endif
-}
-
-ExitCode parseAndRun(int argc, char** argv) {
+/// What the command line asks for; without an action there is nothing more to do, as where it asks for help.
+Action actionOf(int argc, char** argv) {
   CLI::App app("Gamut: guaranteed, probable and possible motion of uncertain mechanisms.");
   app.set_version_flag("--version", "gamut " + version());
   app.require_subcommand(1);
@@ -115,7 +80,10 @@ ExitCode parseAndRun(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return static_cast<ExitCode>(app.exit(error));
+    if (error.get_exit_code() == 0) {
+      app.exit(error);
+      return {};
+    }
     const auto asked = app.get_subcommands();
     if (asked.empty())
       refuseUnknownCommand(argc, argv);
@@ -126,11 +94,48 @@ ExitCode parseAndRun(int argc, char** argv) {
                                             : error.what();
     throw UsageError(fmt::format("{}; see gamut {}--help", what, asked.empty() ? "" : asked.front()->get_name() + " "));
   }
-  const StartedAs started = startedAs();
-  const std::string name = app.get_subcommands().front()->get_name();
-  const bool isShared = name == "run" || name == "resume";  // others are the first rank's alone
-  if (started.count > 1 && !isShared) return started.rank == 0 ? action() : done;
-  return started.count > 1 ? actAsRank(action, started) : action();
+  return action;
+}
+
+ExitCode parseAndRun(int argc, char** argv) {
+  const Action action = actionOf(argc, argv);
+  return action ? action() : done;
+}
+
+#ifdef GAMUT_MPI
+/// What all understand, or none, then do together. Ranks but the first say nothing.
+ExitCode parseAndRunAsRank(int argc, char** argv) {
+  int onOneMachine = 1;
+  const std::unique_ptr<Communicator> all = startedByMpi(onOneMachine);
+  if (!all->isFirst()) fallSilent();
+  shareMemory(onOneMachine);
+  setRanks(all.get());
+  const auto act = [&] {
+    try {
+      Action action;
+      onAllRanks([&] { action = actionOf(argc, argv); });
+      return action ? action() : done;
+    } catch (const std::exception& error) {  // an exit code of another ends the first before it has said why
+      if (all->isFirst() || !isRefusal(error)) throw;
+      return done;
+    }
+  };
+  const ExitCode code = act();
+  setRanks(nullptr);
+  return code;
+}
+#endif
+
+/// Among others that were started with it some commands are done together, others by the first alone.
+ExitCode parseAndRunAmongOthers(int argc, char** argv, const StartedAs& started) {
+  const std::string_view name = argc > 1 ? argv[1] : "";
+  if (name != "run" && name != "resume") return started.rank == 0 ? parseAndRun(argc, argv) : done;
+#ifdef GAMUT_MPI
+  return parseAndRunAsRank(argc, argv);
+#else
+  throw UsageError(fmt::format("was started as {} processes, and built without MPI; expected one, or a build with MPI",
+                               started.count));
+#endif
 }
 
 /// Whether anybody reads it changes nothing.
@@ -148,7 +153,8 @@ int main(int argc, char** argv) {
   ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of writing, not the end
   const std::string name = "gamut: ";
   try {
-    const ExitCode code = parseAndRun(argc, argv);
+    const StartedAs started = startedAs();
+    const ExitCode code = started.count > 1 ? parseAndRunAmongOthers(argc, argv, started) : parseAndRun(argc, argv);
     flushOut();
     return code;
   } catch (const UsageError& error) {
@@ -160,6 +166,8 @@ int main(int argc, char** argv) {
   } catch (const OutputRefused& error) {
     return complain(badInput, name + error.what());
   } catch (const WriteError& error) {
+    return complain(failed, name + error.what());
+  } catch (const RankFailed& error) {
     return complain(failed, name + error.what());
   } catch (const std::system_error& error) {
     return complain(failed, name + error.what());

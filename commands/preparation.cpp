@@ -15,6 +15,7 @@
 #include "commands/exit_codes.hpp"
 #include "commands/interrupts.hpp"
 #include "commands/progress.hpp"
+#include "commands/ranks.hpp"
 #include "reports/words.hpp"
 #include "studies/watch.hpp"
 
@@ -41,10 +42,10 @@ class Clock {
   }
   [[noreturn]] void end() const {
     bar_.wipe();
-    fmt::print(stderr,
-               "gamut: the time limit of {} of CPU was reached before the study could run (at work on: {}, {:.0f} % "
-               "done); nothing was written\n",
-               cpuText(limit_), task_, 100 * fraction_);
+    sayLast(
+        fmt::format("the time limit of {} of CPU was reached before the study could run (at work on: {}, {:.0f} % "
+                    "done); nothing was written",
+                    cpuText(limit_), task_, 100 * fraction_));
     endNow(endedEarly);
   }
 

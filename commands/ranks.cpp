@@ -2,16 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "scalars/archive.hpp"
+#include "studies/atomic_file.hpp"
+#include "studies/printable.hpp"
+#include "studies/results/results_file.hpp"
+#include "studies/study.hpp"
 
 namespace gamut {
 namespace {
 
 Communicator* all = nullptr;
+int errorStream = STDERR_FILENO;
 
 /// -1 where there is no such number.
 int numberIn(const char* name) {
@@ -36,26 +49,55 @@ StartedAs startedAs() {
   return {};
 }
 
+bool isRefusal(const std::exception& error) {
+  return dynamic_cast<const UsageError*>(&error) != nullptr || dynamic_cast<const StudyError*>(&error) != nullptr ||
+         dynamic_cast<const ResultsFileError*>(&error) != nullptr ||
+         dynamic_cast<const OutputRefused*>(&error) != nullptr;
+}
+
 void onAllRanks(const std::function<void()>& task) {
+  struct Found {
+    std::string why;
+    bool isRefused = true;
+  } own, others;
   std::exception_ptr failure;
-  std::string why, others;
   try {
     task();
   } catch (const std::exception& error) {
     failure = std::current_exception();
-    why = error.what();
+    own = {error.what(), isRefusal(error)};
+    if (own.why.empty()) own.why = "an exception without words";
   }
   SharedWork shared(ranks());
   shared.exchange(
-      0, [&](Archive& told) { told(why); },
+      0, [&](Archive& told) { told(own.why, own.isRefused); },
       [&](int rank, Archive& told) {
-        std::string text;
-        told(text);
-        if (others.empty() && !text.empty()) others = fmt::format("rank {}: {}", rank, text);
+        Found found;
+        told(found.why, found.isRefused);
+        if (others.why.empty() && !found.why.empty())
+          others = {fmt::format("rank {}: {}", rank, found.why), found.isRefused};
       });
   shared.end();
-  if (failure) std::rethrow_exception(failure);
-  if (!others.empty()) throw UsageError(others);
+  if (failure && isFirstRank()) std::rethrow_exception(failure);
+  if (failure) throw UsageError(own.why);
+  if (others.why.empty()) return;
+  if (isFirstRank() && !others.isRefused) throw RankFailed(others.why);
+  throw UsageError(others.why);
+}
+
+void fallSilent() {
+  errorStream = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (errorStream < 0 || std::freopen("/dev/null", "w", stdout) == nullptr ||
+      std::freopen("/dev/null", "w", stderr) == nullptr)
+    throw std::system_error(errno, std::generic_category(), "/dev/null");
+}
+
+void sayLast(const std::string& line) {
+  if (!isFirstRank()) std::this_thread::sleep_for(std::chrono::seconds(2));
+  const std::string who = ranks() != nullptr ? fmt::format("rank {}: ", ranks()->rank()) : "";
+  const std::string whole = printable("gamut: " + who + line) + "\n";
+  // Nothing can be done where nobody reads it.
+  if (::write(errorStream, whole.data(), whole.size()) < 0) return;
 }
 
 }  // namespace gamut

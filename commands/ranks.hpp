@@ -3,6 +3,8 @@
 
 #include <exception>
 #include <functional>
+#include <stdexcept>
+#include <string>
 
 #include "analyses/communicator.hpp"
 #include "commands/options.hpp"
@@ -21,8 +23,23 @@ struct StartedAs {
 };
 StartedAs startedAs();
 
-/// Does what has to succeed on all ranks before they go on together: where it fails on one, it does on all, with that
-/// one's words. Throws what `task` does, or UsageError.
+/// Does what has to succeed on all ranks before they go on together: where it fails on one, it does on all. The first
+/// throws what `task` does there, else, in the words of the first that failed and with its number, UsageError where
+/// that refused something, or RankFailed. All others throw UsageError.
 void onAllRanks(const std::function<void()>& task);
+
+/// Another rank could not go on, for no fault of the input.
+struct RankFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Whether bad input or usage is what it complains of.
+bool isRefusal(const std::exception& error);
+
+/// From now on this rank says nothing on its standard streams. Throws std::system_error.
+void fallSilent();
+/// On what was standard error before that, with the rank's number where there are several: for a rank that ends at
+/// once, and all others with it. Unless it is the first it leaves that one two seconds to say so itself.
+void sayLast(const std::string& line);
 
 }  // namespace gamut

@@ -179,6 +179,8 @@ ExitCode takePart(const Machine& machine, RunOptions options) {
   try {
     gamut::run(machine, options);
   } catch (const Communicator::Parted&) {  // the first goes on alone
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
   }
   return done;
 }

@@ -27,12 +27,13 @@ class RanksOfProgram : public FromOutside {
   }
 
   /// On so many processes, more than the machine has if need be, each with one thread.
-  Outcome onRanks(int ranks, const std::string& arguments, const std::string& before = "") const {
+  Outcome onRanks(int ranks, const std::string& arguments, const std::string& before = "",
+                  const std::string& eachBy = "") const {
     return gamut(
         arguments + " --jobs 1",
         before + fmt::format("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe "
-                             "-n {} ",
-                             ranks));
+                             "-n {} {}",
+                             ranks, eachBy));
   }
 
   Results results(const std::string& name) const { return readResults(folder_.path(name)); }
@@ -49,6 +50,42 @@ TEST_F(RanksOfProgram, ComeToTheSame) {
     EXPECT_EQ(shared.out.find("CPU: "), shared.out.rfind("CPU: "));  // one of them says it
     EXPECT_TRUE(std::filesystem::exists(folder_.path("s.html")));
   }
+}
+
+/// Three, of which the last does something of its own first.
+class OneRankApart : public RanksOfProgram {
+ protected:
+  Outcome apart(const std::string& own, const std::string& arguments) const {
+    return onRanks(3, arguments, "",
+                   fmt::format("sh -c '[ $OMPI_COMM_WORLD_RANK -lt 2 ] || {{ {}; }}; exec \"$0\" \"$@\"' ", own));
+  }
+  /// One line, of that rank.
+  static void expectComplaint(const Outcome& outcome, int exitCode, const std::string& what) {
+    EXPECT_EQ(outcome.exitCode, exitCode) << outcome.error;
+    EXPECT_THAT(outcome.error, HasSubstr("gamut: " + what));
+    EXPECT_EQ(outcome.error.find("gamut: "), outcome.error.rfind("gamut: ")) << outcome.error;
+  }
+};
+
+TEST_F(OneRankApart, EndsAllBeforeTheyBegin) {
+  std::filesystem::create_directory(folder_.path("elsewhere"));
+  expectComplaint(apart("cd elsewhere", "run s.toml"), 2, "rank 2: s.toml: does not exist");
+  folder_.write("elsewhere/s.toml", "title = 1\n");
+  expectComplaint(apart("cd elsewhere", "run s.toml"), 2, "rank 2: s.toml:1");
+  folder_.write("elsewhere/s.toml", longStudy() + "\n");
+  expectComplaint(apart("cd elsewhere", "run s.toml"), 2, "s.toml: rank 2 has another program, processor or study");
+  expectComplaint(apart("set -- \"$@\" --memory-limit 0.001", "run s.toml"), 2, "rank 2: s.toml: samples of");
+  expectComplaint(apart("set -- \"$@\" --nowhere", "run s.toml"), 2, "rank 2: unknown option");
+  expectComplaint(apart("mkdir gone; cd gone; rmdir ../gone", "run " + folder_.path("s.toml")), 4,
+                  "rank 2: filesystem error");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("s.h5")));
+}
+
+TEST_F(OneRankApart, IsHeardWhateverTheFirstDoes) {
+  expectComplaint(apart("set -- \"$@\" --nowhere", "resume s.h5"), 2, "rank 2: unknown option");
+  const Outcome help = onRanks(3, "run --help");
+  EXPECT_EQ(help.exitCode, 0) << help.error;
+  EXPECT_EQ(help.out.find("Exit codes:"), help.out.rfind("Exit codes:"));
 }
 
 TEST_F(RanksOfProgram, ComplainOnce) {
