@@ -34,6 +34,7 @@ struct Case {
   bool isMeasured = false;  // it was integrated again
   bool settled = false;     // found inside
   bool lookedAt = false;    // by every instance, to the end
+  bool isRounding = false;  // it is outside by no more than doubles can have been rounded by
   std::size_t times = 0;    // output times up to the last one at which it is outside: beyond, nothing is disputed
 };
 
@@ -169,6 +170,16 @@ class Comparer {
     std::ranges::sort(cases_, {}, [](const Case& c) { return c.dispute.number; });
   }
 
+  /// Outside by no more than a few units in the last place of an output's magnitude, or its own roundings.
+  bool isWithin(std::span<const double> trajectory, std::span<const double> rounding) const {
+    const std::vector<double> size = magnitudes(trajectory);
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * outputs_; ++i) {
+      const double own = i < rounding.size() && std::isfinite(rounding[i]) ? rounding[i] : 0;
+      if (distanceOutside(i, trajectory[i]) > std::max(leastError(size[i % outputs_]), own)) return false;
+    }
+    return true;
+  }
+
   std::size_t timesOutside(std::span<const double> trajectory) const {
     std::size_t i = enclosure_.reachedTimes * outputs_;
     while (i > 0 && !(distanceOutside(i - 1, trajectory[i - 1]) > 0)) --i;
@@ -183,8 +194,23 @@ class Comparer {
 
   /// What is known of outputs, where the sample has values.
   void putKnown(std::span<double> trajectory) const {
-    for (std::size_t i = 0; options_.known != nullptr && i < trajectory.size(); ++i)
+    if (options_.known == nullptr) return;
+    for (std::size_t i = 0; i < trajectory.size(); ++i)
       if (options_.known->holds(i) && !std::isnan(trajectory[i])) trajectory[i] = options_.known->values[i];
+    putBack(trajectory, options_.known->rounding);
+  }
+
+  /// A value that its own roundings can have put outside is the bound that it left: what it stands for may lie there.
+  /// (Enclosures are exact where nothing has to be rounded: of min(x, 1) - 1 over x > 1, which for samples is a
+  /// formula.)
+  void putBack(std::span<double> trajectory, std::span<const double> rounding) const {
+    const std::size_t size = std::min({enclosure_.reachedTimes * outputs_, trajectory.size(), rounding.size()});
+    for (std::size_t i = 0; i < size; ++i) {
+      const double distance = distanceOutside(i, trajectory[i]);
+      if (!(distance > 0 && distance <= rounding[i] && std::isfinite(rounding[i]))) continue;
+      const Envelope& bounds = enclosure_.bounds;
+      trajectory[i] = trajectory[i] < bounds.lower.data[i] ? bounds.lower.data[i] : bounds.upper.data[i];
+    }
   }
 
   /// How far it may be off: that is no matter of this sample's integrations.
@@ -194,13 +220,16 @@ class Comparer {
   }
 
   /// Takes over a better trajectory of the disputed part, unless it ends before that does where the old one did not.
-  /// `error`, where it is there: of the better one, as that itself tells it, instead of the change.
-  bool replace(Case& c, std::span<const double> better, std::span<const double> error = {}) {
+  /// `rounding`: what its outputs may be off by through their roundings. `error`, where it is there: of the better one,
+  /// as that itself tells it, instead of the change.
+  bool replace(Case& c, std::span<const double> better, std::span<const double> rounding,
+               std::span<const double> error = {}) {
     std::vector<double> trajectory = samples_.trajectory(c.dispute.number);
     for (std::size_t i = 0; i < better.size(); ++i)
       if (std::isnan(better[i]) && !std::isnan(trajectory[i])) return false;
     Errors errors(trajectory.size(), 0);
-    for (std::size_t i = 0; i < better.size(); ++i) errors[i] = std::abs(better[i] - trajectory[i]);
+    for (std::size_t i = 0; i < better.size(); ++i)
+      errors[i] = std::max(std::abs(better[i] - trajectory[i]), rounding[i]);
     accumulate(errors);
     putKnownErrors(errors);
     if (!error.empty()) {
@@ -209,10 +238,12 @@ class Comparer {
       putKnownErrors(errors);
     }
     std::ranges::copy(better, trajectory.begin());
+    if (!error.empty()) putBack(trajectory, rounding);  // doubles alone prove nothing
     putKnown(trajectory);
     samples_.setTrajectory(c.dispute.number, trajectory);
     c.times = timesOutside(trajectory);
     c.isMeasured = true;
+    c.isRounding = isWithin(trajectory, rounding);
     locate(c, trajectory, errors);
     c.settled = c.dispute.distance == 0;
     return true;
@@ -230,7 +261,9 @@ class Comparer {
       return [&](std::size_t i) {
         Case& c = cases_[i];
         const std::vector<double> start = system_.start(samples_.valuesOf(c.dispute.number));
-        if (!replace(c, integrateByTaylor(disputedPart(c), start, options_.cancelled))) return;
+        std::vector<double> rounding;
+        const std::vector<double> better = integrateByTaylor(disputedPart(c), start, options_.cancelled, &rounding);
+        if (!replace(c, better, rounding)) return;
         c.dispute.decided = "Taylor 53 bits";
       };
     });
@@ -258,13 +291,13 @@ class Comparer {
   /// more are told from a wrong enclosure by the worst of them, which 128 bits have just found inside.
   void leaveRounding(std::vector<Case*>& open, std::size_t from) {
     for (std::size_t i = from; i < open.size(); ++i) {
-      Dispute& d = open[i]->dispute;
-      const std::vector<double> size = magnitudes(samples_.trajectory(d.number));
-      bool isRounding = open[i]->isMeasured;
-      for (std::size_t k = 0; k < size.size(); ++k) isRounding = isRounding && d.farthest[k] <= leastError(size[k]);
-      if (!isRounding) continue;
+      if (!open[i]->isRounding) continue;
       open[i]->settled = true;
-      d.decided = "rounding";
+      open[i]->dispute.decided = "rounding";
+      std::vector<double> trajectory = samples_.trajectory(open[i]->dispute.number);
+      const std::vector<double> any(trajectory.size(), std::numeric_limits<double>::max());
+      putBack(trajectory, any);
+      samples_.setTrajectory(open[i]->dispute.number, trajectory);
     }
     const auto left = std::remove_if(open.begin() + static_cast<std::ptrdiff_t>(std::min(from, open.size())),
                                      open.end(), [](const Case* c) { return c->settled; });
@@ -276,7 +309,9 @@ class Comparer {
         arbitrate(disputedPart(c), system_.start(samples_.valuesOf(c.dispute.number)), {}, options_.cancelled);
     c.lookedAt = !isCancelled();
     // The arbiter's last two integrations are both its own.
-    if (!replace(c, roundedToDoubles(precise, c.times * outputs_), precise.error)) return;
+    std::vector<double> rounding = precise.rounding;
+    rounding.resize(c.times * outputs_, 0.0);
+    if (!replace(c, roundedToDoubles(precise, c.times * outputs_), rounding, precise.error)) return;
     c.lookedAt = true;
     c.dispute.decided = "Taylor 128 bits";
   }

@@ -51,7 +51,9 @@ Settlement::Settlement(const Proved& proved, const UncertainMotion& system, cons
   std::copy_n(proved.enclosure.upper.data.begin(), size, bounds_.upper.data.begin());
 }
 
-void Settlement::archive(Archive& all) { all(refuted_, moved_, known_.outputs, known_.values, known_.error); }
+void Settlement::archive(Archive& all) {
+  all(refuted_, moved_, known_.outputs, known_.values, known_.error, known_.rounding);
+}
 
 /// Of samples in no cut, in the first, in the first two … at one output and time. fmax, fmin: NaN is no bound.
 void Settlement::boundLevels(std::size_t cell, std::vector<double>& lower, std::vector<double>& upper) const {
@@ -155,8 +157,9 @@ void Settlement::settleOnce(SampleBlock& block, const std::vector<std::size_t>& 
       if (!(value < lower[level] || value > upper[level])) continue;
       known_ = settleUnmoved(system_, moved_, proved_.reachedTimes, options_.cancelled);
       if (known_.values.empty()) return;  // it was cancelled
-      const double settled = known_.values[cell];
-      if (settled >= lower[level] && settled <= upper[level]) tellOf(block, disputed[i], cell, take);
+      const double settled = known_.values[cell], own = known_.rounding[cell], rounding = std::isfinite(own) ? own : 0;
+      if (settled >= lower[level] - rounding && settled <= upper[level] + rounding)
+        tellOf(block, disputed[i], cell, take);
     }
   for (const std::size_t i : disputed)
     for (std::size_t cell = 0; cell < known_.values.size(); ++cell)

@@ -104,12 +104,13 @@ KnownOutputs settleUnmoved(const UncertainMotion& system, const std::vector<char
   KnownOutputs known;
   known.outputs = moved.size();
   known.values.assign(times * moved.size(), std::numeric_limits<double>::quiet_NaN());
-  known.error = known.values;
+  known.error = known.rounding = known.values;
   const std::vector<double> values = roundedToDoubles(precise, precise.times * outputs.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::size_t cell = i / outputs.size() * moved.size() + outputs[i % outputs.size()];
     known.values[cell] = values[i];
     known.error[cell] = precise.error[i];
+    known.rounding[cell] = precise.rounding[i];
   }
   return known;
 }

@@ -16,8 +16,9 @@ std::vector<char> movedOutputs(const UncertainMotion& system);
 /// What is known of outputs for all samples at once.
 struct KnownOutputs {
   std::size_t outputs = 0;
-  std::vector<double> values;  ///< [time][output]; NaN where nothing is known, or beyond all
-  std::vector<double> error;   ///< likewise
+  std::vector<double> values;    ///< [time][output]; NaN where nothing is known, or beyond all
+  std::vector<double> error;     ///< likewise
+  std::vector<double> rounding;  ///< likewise, PreciseTrajectory::rounding
 
   bool holds(std::size_t cell) const { return cell < values.size() && !std::isnan(values[cell]); }
 };

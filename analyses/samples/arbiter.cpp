@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "analyses/samples/bounded_number.hpp"
 #include "analyses/samples/sides_of_motion.hpp"
 #include "analyses/samples/time_cells.hpp"
 #include "scalars/evaluation/evaluator.hpp"
@@ -20,7 +21,11 @@ namespace {
 /// The second integration: other steps, other series, so that what it gets wrong it gets wrong differently.
 constexpr double looser = 1e3;
 constexpr int lowerOrder = 4;
-constexpr double rounding = 0x1p-112;  // relative, of a value: some thousand roundings of 128 bits
+/// Relative, of a value: some thousand roundings of 128 bits, some of doubles.
+template <class Real>
+constexpr double rounding = 0x1p-112;
+template <>
+constexpr double rounding<double> = 0x1p-50;
 constexpr int leastSteps = 32, probes = 16;
 constexpr double someRoundings = 8;           // of the equations, in a series that holds
 constexpr double shortestTaylorStep = 1e-12;  // of the horizon: below, the solution runs into a singularity
@@ -65,6 +70,7 @@ struct Trajectory {
   double reached = 0;
   std::string why;
   std::vector<Real> values;
+  std::vector<double> rounding;  // of the values
 };
 
 /// A kink or a jump within a step, after `before` and not after `behind`.
@@ -354,8 +360,34 @@ class TaylorRun {
       return;
     }
     result_.values.insert(result_.values.end(), y.begin(), y.end());
+    for (const Bounded& value : boundedOutputs(time, x)) result_.rounding.push_back(atMost(value.off));
     result_.reached = time;
     ++result_.times;
+  }
+
+  /// A double that is no less; 0 for 0.
+  static double atMost(const Real& value) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!(value < infinity)) return infinity;
+    return value > 0 ? std::nextafter(rounded(value), infinity) : 0;
+  }
+
+  using Bounded = BoundedNumber<Real>;
+
+  /// With what roundings can do to them: of the start nothing is rounded.
+  std::vector<Bounded> boundedOutputs(double time, const std::vector<Real>& x) {
+    using std::abs;
+    const Program& seen = sides_.count() > 0 ? sides_.piece().programs.outputs : seen_;
+    std::unique_ptr<Evaluator<Bounded>>& evaluate = bounded_[&seen];
+    if (!evaluate) {
+      evaluate = std::make_unique<Evaluator<Bounded>>(seen);
+      std::vector<Bounded> parameters;
+      for (const Real& value : parameters_) parameters.emplace_back(value, Real(0.0));
+      evaluate->setParameters(parameters);
+    }
+    std::vector<Bounded> states;
+    for (const Real& value : x) states.emplace_back(value, time > 0 ? Real(abs(value) * rounding<Real>) : Real(0.0));
+    return (*evaluate)(Bounded(time), states);
   }
 
   const Motion& motion_;
@@ -364,6 +396,7 @@ class TaylorRun {
   const Program seen_;
   SidesOfMotion<Real> sides_;
   Evaluator<Real> g_;
+  std::map<const Program*, std::unique_ptr<Evaluator<BoundedNumber<Real>>>> bounded_;  // of outputs
   std::size_t n_;
   std::vector<Interval> ranges_;  // of the parameters
   std::vector<double> cells_;
@@ -393,12 +426,15 @@ std::vector<double> roundedToDoubles(const PreciseTrajectory& trajectory, std::s
 }
 
 std::vector<double> integrateByTaylor(const Motion& motion, std::span<const double> start,
-                                      const std::atomic<bool>* cancelled) {
+                                      const std::atomic<bool>* cancelled, std::vector<double>* rounding) {
   const ArbiterOptions options{24, 1e-18};
   check(motion, start, options);
-  std::vector<double> result = TaylorRun<double>(motion, start, options, cancelled).run().values;
-  result.resize(motion.times.size() * motion.outputs(), std::numeric_limits<double>::quiet_NaN());
-  return result;
+  Trajectory<double> found = TaylorRun<double>(motion, start, options, cancelled).run();
+  const std::size_t size = motion.times.size() * motion.outputs();
+  found.values.resize(size, std::numeric_limits<double>::quiet_NaN());
+  found.rounding.resize(size, 0.0);
+  if (rounding != nullptr) *rounding = std::move(found.rounding);
+  return std::move(found.values);
 }
 
 PreciseTrajectory arbitrate(const Motion& motion, std::span<const double> start, const ArbiterOptions& options,
@@ -409,11 +445,13 @@ PreciseTrajectory arbitrate(const Motion& motion, std::span<const double> start,
   const auto second = TaylorRun<Precise>(motion, start, other, cancelled).run();
   // What only one of them reached is not confirmed.
   const auto& shorter = second.times < first.times ? second : first;
-  PreciseTrajectory result{shorter.times, shorter.reached, shorter.why, first.values, {}};
+  PreciseTrajectory result{shorter.times, shorter.reached, shorter.why, first.values, {}, first.rounding};
   result.values.resize(shorter.values.size());
-  for (std::size_t i = 0; i < result.values.size(); ++i)
-    result.error.push_back(
-        rounded(Precise(abs(result.values[i] - second.values[i]) + rounding * abs(result.values[i]))));
+  result.rounding.resize(shorter.values.size());
+  for (std::size_t i = 0; i < result.values.size(); ++i) {
+    const Precise own = std::max(Precise(rounding<Precise> * abs(result.values[i])), Precise(result.rounding[i]));
+    result.error.push_back(rounded(Precise(abs(result.values[i] - second.values[i]) + own)));
+  }
   return result;
 }
 

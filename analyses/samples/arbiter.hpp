@@ -35,19 +35,21 @@ struct ArbiterOptions {
 
 /// What the arbiter found: row by row one output time, one column an output.
 struct PreciseTrajectory {
-  std::size_t times = 0;        ///< number of output times reached
-  double reached = 0;           ///< s
-  std::string why;              ///< why it ended early; empty if it did not
-  std::vector<Precise> values;  ///< of the reached times
-  std::vector<double> error;    ///< difference from a second integration with another order and a looser tolerance,
-                                ///< and an allowance for rounding
+  std::size_t times = 0;         ///< number of output times reached
+  double reached = 0;            ///< s
+  std::string why;               ///< why it ended early; empty if it did not
+  std::vector<Precise> values;   ///< of the reached times
+  std::vector<double> error;     ///< difference from a second integration with another order and a looser tolerance,
+                                 ///< and an allowance for rounding
+  std::vector<double> rounding;  ///< of that what evaluating outputs makes of its roundings, and of those of states
 };
 
 /// Before it is asked: the same series once, in doubles, of order 24. Row by row one output time, one column an output;
 /// NaN from where it ends early. Where a motion decays, its errors decay with it, unlike those of an absolute
-/// tolerance. Throws as `arbitrate`.
+/// tolerance. `rounding`: as of PreciseTrajectory, if it is asked for. Throws as `arbitrate`.
 std::vector<double> integrateByTaylor(const Motion& motion, std::span<const double> start,
-                                      const std::atomic<bool>* cancelled = nullptr);
+                                      const std::atomic<bool>* cancelled = nullptr,
+                                      std::vector<double>* rounding = nullptr);
 
 /// The values as the nearest doubles, filled up with NaN to `count`.
 std::vector<double> roundedToDoubles(const PreciseTrajectory& trajectory, std::size_t count);

@@ -117,6 +117,52 @@ TEST_F(DecayCompared, AnEnclosureCutByMoreThanAnyErrorIsRefutedByTheSampleLeftOu
   for (std::size_t other = 1; other < c.disputes.size(); ++other) EXPECT_FALSE(c.disputes[other].outside);
 }
 
+/// min(p, ¼) - ¼ and sums that cancel, of p in [0.5, 0.99]: nothing, of which samples make roundings.
+class NothingCompared : public ::testing::Test {
+ protected:
+  static constexpr std::size_t outputs = 2;
+
+  NothingCompared() {
+    system.motion.f = record(1, 1, [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
+    system.motion.g = record(1, 1, outputs, [](auto t, const auto&, const auto& p, auto& y) {
+      y[0] = min(p[0] * (1.0 + exp(-100.0 * t - 5.0)), Recorded(0.25)) - 0.25;
+      y[1] = 1e6 * ((p[0] + exp(p[0])) - exp(p[0]) - p[0]);
+    });
+    system.motion.times = {0, 0.5, 1};
+    system.nominal = {0.0, 0.75};
+    system.uncertain = {uniformly("p", 0.5, 0.75, 0.99)};
+    system.slot = {1};
+    EnsembleOptions options;
+    options.samples = sampleCount;
+    ensemble = sampleEnsemble(system, options);
+    enclosure.bounds = Envelope(3, outputs);
+    enclosure.reachedTimes = 3;
+    std::ranges::fill(enclosure.bounds.lower.data, 0.0);
+    std::ranges::fill(enclosure.bounds.upper.data, 0.0);
+  }
+
+  UncertainMotion system;
+  WholeEnsemble ensemble;
+  EnclosureBounds enclosure;
+};
+
+TEST_F(NothingCompared, AnExactEnclosureIsNotRefutedByRoundings) {
+  const Comparison c = compare(enclosure, ensemble, system);
+  EXPECT_EQ(gravest(c), "inside");
+  EXPECT_FALSE(c.disputes.empty());
+  EXPECT_THAT(c.disputes, Contains(Field(&Dispute::decided, "rounding")));  // 128 bits need not look at all
+  for (const Dispute& d : c.disputes) EXPECT_TRUE(d.decided == "rounding" || d.distance == 0) << d.decided;
+}
+
+/// By far less than a double knows.
+TEST_F(NothingCompared, OneThatIsWrongByMoreThanRoundingsOf128BitsIs) {
+  for (const std::size_t output : {0U, 1U}) {
+    EnclosureBounds wrong = enclosure;
+    for (std::size_t row = 0; row < 3; ++row) wrong.bounds.lower(row, output) = wrong.bounds.upper(row, output) = 1e-28;
+    EXPECT_EQ(gravest(compare(wrong, ensemble, system)), "outside") << output;
+  }
+}
+
 TEST_F(DecayCompared, AnEnclosureThatManySamplesLeaveIsOutsideThoughTheArbiterSeesOnlySome) {
   for (std::size_t t = 20; t < 41; ++t) enclosure.bounds.upper(t, 0) -= 0.2;  // of a width of 0.38 and more
   ComparisonOptions options;

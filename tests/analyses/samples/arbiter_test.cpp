@@ -6,12 +6,22 @@
 #include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
+#include <limits>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
+#include "analyses/samples/bounded_number.hpp"
+#include "scalars/evaluation/evaluator.hpp"
 #include "tests/analyses/motions.hpp"
 
 namespace gamut {
+
+template <>
+struct ScalarTraits<boost::multiprecision::cpp_bin_float_50> {
+  static boost::multiprecision::cpp_bin_float_50 constant(const Interval& enclosure) { return midpoint(enclosure); }
+};
+
 namespace {
 
 using namespace testing_motions;
@@ -35,6 +45,102 @@ TEST(Arbiter, AgreesWithTheHarmonicOscillatorTo28Digits) {
     EXPECT_LT(relativeError(y.values[2 * t], Wide(1.1) * cos(phase)), 1e-28);
     EXPECT_LT(relativeError(y.values[2 * t + 1], -Wide(1.1) * Wide(2.3) * sin(phase)), 1e-28);
   }
+}
+
+/// What outputs are made of, cancelling or not, with everything that programs can do but jumps.
+Program roundedOutputs() {
+  return record(0, 3, 12, [](auto, const auto&, const auto& p, auto& y) {
+    const auto large = 1e6 * sqr(p[0]) * cos(p[1]), sum = large + p[1];
+    y[0] = sum - large - p[1];
+    y[1] = min(large, p[1]) - p[1];
+    y[2] = max(sin(p[0]), p[2]) - abs(p[2]);
+    y[3] = sqrt(sqr(sum) - sqr(large)) * exp(p[2]);
+    y[4] = log(sum) - log(large);
+    y[5] = 1.0 / (sum - large) - 1.0 / p[1];
+    y[6] = atan(sum) - atan(large);
+    y[7] = tanh(p[0] * p[2]) - sin(p[0] * p[2]) / cos(p[0] * p[2]);
+    y[8] = exp(large * 1e-6) * exp(-p[0]) - 1.0;
+    y[9] = sqrt(sqr(p[0]) + sqr(p[1])) - p[0];
+    y[10] = abs(sum - large - p[1]);
+    y[11] = 3.0 * p[2] - p[2] - p[2] - p[2];
+  });
+}
+
+template <class Real>
+Wide wideOf(const BoundedNumber<Real>& of, bool isOff) {
+  return widened(Precise(isOff ? of.off : of.value));
+}
+
+/// Against 168 bits, whose own roundings are nothing beside those of 128.
+template <class Real>
+void expectBounds(double a, double b, double c, const char* kind) {
+  const Program program = roundedOutputs();
+  Evaluator<BoundedNumber<Real>> bounded(program);
+  bounded.setParameters(std::vector<BoundedNumber<Real>>{a, b, c});
+  const std::vector<BoundedNumber<Real>> found = bounded(0.0, {});
+  Evaluator<Wide> wide(program);
+  wide.setParameters(std::vector<Wide>{Wide(a), Wide(b), Wide(c)});
+  const std::vector<Wide> truth = wide(Wide(0), {});
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Wide off = wideOf(found[i], true), away = abs(wideOf(found[i], false) - truth[i]);
+    EXPECT_TRUE(found[i].isKnown()) << kind << ' ' << i;
+    EXPECT_LE(away, off) << kind << ' ' << i;
+    const double unit = std::numeric_limits<Real>::epsilon().template convert_to<double>();
+    EXPECT_LE(off, Wide(1e13 * unit)) << kind << ' ' << i << " of " << truth[i];
+  }
+}
+
+TEST(BoundedNumber, HoldsWhatRoundingsDo) {
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<> any(0.1, 1.4);
+  for (int i = 0; i < 300; ++i) {
+    const double a = any(engine), b = any(engine), c = any(engine);
+    expectBounds<Precise>(a, b, c, "128 bits");
+  }
+}
+
+TEST(BoundedNumber, KnowsSignsAndQuotientsWhereTheyAreKnown) {
+  using Number = BoundedNumber<double>;
+  const Number open(0.25, 0.5), above(0.75, 0.5), zero(0.0), nothing(0.0, 1e-20);
+  EXPECT_EQ(sign(above).off, 0);
+  EXPECT_EQ(sign(zero).off, 0);
+  EXPECT_EQ(sign(open).off, 2);
+  EXPECT_EQ(sign(nothing).off, 1);
+  EXPECT_FALSE((1.0 / open).isKnown());
+  EXPECT_GE((1.0 / above).off, 1 / 0.25 - 1 / 0.75);
+  EXPECT_LE((1.0 / above).off, 1.001 * (1 / 0.25 - 1 / 0.75));
+  EXPECT_FALSE(log(open).isKnown());
+  EXPECT_GE(sqrt(above).off, std::sqrt(0.75) - std::sqrt(0.25));
+  EXPECT_GE(sqrt(open).off, std::sqrt(0.25));
+  EXPECT_EQ((zero * (1.0 / open)).off, 0);
+}
+
+/// Both integrations round alike where nothing is integrated: what they differ by is no error.
+TEST(Arbiter, TellsWhatOutputsAreRoundedBy) {
+  Motion motion;
+  motion.f = record(1, 1, [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
+  motion.g = record(1, 1, 2, [](auto, const auto&, const auto& p, auto& y) {
+    y[0] = min(p[0] * cos(p[0]), Recorded(0.25)) - 0.25;
+    y[1] = p[0];
+  });
+  motion.times = {0, 1};
+  int rounded = 0;
+  for (double p = 0.9; p < 1.2; p += 0.01) {  // x cos x is above ¼ and below 1
+    const std::array start{0.0, p};
+    const PreciseTrajectory y = arbitrate(motion, start);
+    ASSERT_EQ(y.rounding.size(), 4u);
+    for (const std::size_t i : {0U, 2U}) {
+      rounded += y.values[i] != 0 ? 1 : 0;
+      EXPECT_LE(abs(y.values[i]), Precise(y.rounding[i]));
+      EXPECT_LE(y.rounding[i], y.error[i]);
+      EXPECT_LE(y.rounding[i], 1e-37);
+      EXPECT_EQ(y.rounding[i + 1], 0);
+    }
+    std::vector<double> rounding;
+    const std::vector<double> doubles = integrateByTaylor(motion, start, nullptr, &rounding);
+    for (const std::size_t i : {0U, 2U}) EXPECT_LE(std::abs(doubles[i]), rounding[i]);
+  }
+  EXPECT_GT(rounded, 0);
 }
 
 /// Pendulum with forcing, x'' = -sin x + cos(t) / 8, by Gragg's midpoint rule and Richardson extrapolation.
