@@ -53,11 +53,12 @@ namespace {
 struct ScaledRows {
   Eigen::MatrixXd jacobian;
   std::vector<const Mechanism::JointCoordinate*> coordinates;  // of speeds; null of those without
+  Eigen::VectorXd units;                                       // by which columns were divided
 };
 
 ScaledRows scaledRows(const Mechanism& mechanism, System<double>& system) {
   constexpr double least = 1e-6;  // of the greatest entry of all: of a row that may be taken for one of its own
-  ScaledRows rows{jacobianOfLoops(system), {}};
+  ScaledRows rows{jacobianOfLoops(system), {}, {}};
   Eigen::MatrixXd& jacobian = rows.jacobian;
   const Eigen::Index n = jacobian.cols(), m = jacobian.rows();
   const auto dependents = static_cast<Eigen::Index>(mechanism.dependents().size());
@@ -77,8 +78,9 @@ ScaledRows scaledRows(const Mechanism& mechanism, System<double>& system) {
     return of != nullptr && of->kind != Coordinate::angle ? ofDisplacements : ofAngles;
   };
   for (Eigen::Index j = 0; j < n; ++j) unitOf(j) = std::max(unitOf(j), jacobian.col(j).norm());
+  rows.units = Eigen::VectorXd::Ones(n);
   for (Eigen::Index j = 0; j < n; ++j)
-    if (unitOf(j) > 0) jacobian.col(j) /= unitOf(j);
+    if (unitOf(j) > 0) jacobian.col(j) /= rows.units[j] = unitOf(j);
   return rows;
 }
 
@@ -102,7 +104,7 @@ std::vector<std::string> loopsAlike(const Mechanism& mechanism, System<double>& 
 
 LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
   constexpr double nothing = 1e-7;  // of a row's greatest entry
-  const auto [jacobian, coordinates] = scaledRows(mechanism, system);
+  const auto [jacobian, coordinates, units] = scaledRows(mechanism, system);
   if (coordinates.empty()) return {0.0, {}, 0.0, {}};
   const Eigen::Index n = jacobian.cols(), m = jacobian.rows();
   Eigen::MatrixXd rest = jacobian, best(m, m);
@@ -121,13 +123,15 @@ LoopGrip gripOfLoops(const Mechanism& mechanism, System<double>& system) {
     rest -= direction * (direction.transpose() * rest);
   }
   LoopGrip grip{leastSingularValue(jacobian.rightCols(m)) / leastSingularValue(best), {}, 0.0, {}};
-  const Eigen::VectorXd all = singularValuesOf(jacobianOfLoops(system));
+  const Eigen::MatrixXd unscaled = jacobianOfLoops(system);
+  const Eigen::VectorXd all = singularValuesOf(unscaled);
   grip.firmness = all.minCoeff() / all.maxCoeff();
   for (std::size_t j = 0; j < isTaken.size(); ++j)
     if (isTaken[j] != 0) grip.best.push_back(coordinates[j]->name);
-  grip.determinant = determinantOf(jacobian.rightCols(m));
+  grip.determinant = determinantOf(unscaled.rightCols(m));
   constexpr double some = 0.1;  // of the most that one moves
-  const Eigen::VectorXd loose = rightSingularVectorsOf(jacobian.rightCols(m)).col(m - 1).cwiseAbs();
+  const Eigen::MatrixXd dependents = (unscaled * units.cwiseInverse().asDiagonal()).rightCols(m);
+  const Eigen::VectorXd loose = rightSingularVectorsOf(dependents).col(m - 1).cwiseAbs();
   for (Eigen::Index i = 0; i < m; ++i)
     if (loose[i] > some * loose.maxCoeff()) grip.loose.push_back(mechanism.dependents()[static_cast<std::size_t>(i)]);
   return grip;
@@ -222,7 +226,7 @@ RowChoice rowsToLeaveOut(const Mechanism& mechanism, System<double>& system,
 /// do not close.
 DependentsOf firmDependents(const Mechanism& mechanism, System<double>& system, const std::set<std::string>& given) {
   constexpr double firm = 0.1, nothing = 1e-7;
-  auto [rows, coordinates] = scaledRows(mechanism, system);
+  auto [rows, coordinates, units] = scaledRows(mechanism, system);
   std::map<std::string, std::size_t> order;  // as coordinates stand
   for (const Mechanism::JointCoordinate& coordinate : mechanism.coordinates())
     order.emplace(coordinate.name, order.size());

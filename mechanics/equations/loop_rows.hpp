@@ -24,7 +24,7 @@ Eigen::MatrixXd inertiaAlongLoops(System<double>& system);
 struct LoopGrip {
   double share;                    ///< of the firmness that the best choice has: 0 at a dead point
   std::vector<std::string> best;   ///< the coordinates of that choice; empty where no choice closes all rows
-  double determinant;              ///< of J_d, likewise scaled
+  double determinant;              ///< of J_d, not scaled: by its own scale a row that vanishes would not be seen to
   std::vector<std::string> loose;  ///< dependent coordinates that move most where they hold least
   double firmness = 0;             ///< of all speeds, least singular value over greatest: 0 where rows are dependent
 };

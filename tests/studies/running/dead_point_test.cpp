@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,46 @@ TEST(DeadPoint, IsPassedByNothingWhereALoopLiesInLine) {
       EXPECT_THAT(dead->advice(), ::testing::Not(HasSubstr("multipliers")));
     }
   }
+}
+
+/// Of a linkage that a drive leaves no freedom the rows of the loop alone tell, along the links or not.
+TEST(DeadPoint, IsFoundWhereALinkageIsStretchedByItsDrive) {
+  const double stretched = (std::acos((0.09 + 0.1225 - 0.25) / 0.21) - 80 * std::acos(-1.0) / 180) / 1.5;
+  std::string text = R"(
+[study]
+analysis = "inverse-dynamics"
+horizon = 1
+output_step = 0.125
+[[output]]
+quantity = "rocker.angle"
+)";
+  const auto hinge = [&](const std::string& name, const std::string& from, const std::string& angle) {
+    text += "[[mechanism.element]]\ntype = \"revolute\"\nname = \"" + name + "\"\nfrom = \"" + from + "\"\nto = \"" +
+            name + "_frame\"\naxis = \"z\"\ninitial = { angle = \"" + angle + "\" }\n";
+  };
+  const auto arm = [&](const std::string& name, const std::string& from, const std::string& length) {
+    text += "[[mechanism.element]]\ntype = \"link\"\nname = \"" + name + "\"\nfrom = \"" + from + "\"\nto = \"" + name +
+            "_end\"\nvector = [\"" + length + "\", 0, 0]\n";
+  };
+  hinge("crank", "inertial", "0 deg");
+  text.replace(text.rfind("initial = {"), std::string::npos, "[[mechanism.element]]\ntype = \"drive\"\n");
+  text += "name = \"input\"\njoint = \"crank\"\nposition = \"80 deg + 1.5 rad/s*t\"\n";
+  arm("crank_arm", "crank_frame", "300 mm");
+  hinge("coupler", "crank_arm_end", "-110 deg");
+  arm("coupler_arm", "coupler_frame", "400 mm");
+  arm("ground", "inertial", "350 mm");
+  hinge("rocker", "ground_end", "150 deg");
+  arm("rocker_arm", "rocker_frame", "100 mm");
+  text +=
+      "[[mechanism.element]]\ntype = \"closure\"\nname = \"pin\"\nas = \"pin\"\nfrom = \"rocker_arm_end\"\n"
+      "to = \"coupler_arm_end\"\naxis = \"z\"\n";
+  const auto dead = deadPointOf(readStudyText(text, "s.toml"));
+  ASSERT_TRUE(dead);
+  EXPECT_LE(dead->from, stretched);
+  EXPECT_GE(dead->to, stretched);
+  EXPECT_LT(dead->to - dead->from, 1e-4);
+  EXPECT_EQ(dead->coordinates, (std::vector<std::string>{"coupler.angle", "rocker.angle"}));
+  EXPECT_TRUE(dead->isDriven);
 }
 
 /// No force carries a driven rocker beyond its extreme.
