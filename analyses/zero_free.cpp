@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
 
 #include "analyses/work.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/program/differentiation.hpp"
+#include "scalars/program/time_given.hpp"
 
 namespace gamut {
 namespace {
@@ -26,14 +29,77 @@ struct OpenPart {
   }
 };
 
+/// Values over parts of time and box.
+class ValuesOverParts {
+ public:
+  explicit ValuesOverParts(const Program& g) : g_(g), plain_(g) {
+    // Across a jump no derivative tells anything; across a kink those of both sides do, together (Lebourg 1975).
+    const bool jumps = std::ranges::any_of(g.nodes(), [](const Node& node) { return node.op == Op::sign; });
+    if (!jumps) withSlopes_.emplace(reverseDifferentiated(withTimeGiven(g), true));
+  }
+
+  /// By plain intervals. Valid until the next call.
+  const std::vector<Interval>& plainly(double begin, double end, const Box& box) {
+    Work::count(Work::boundedNode, static_cast<double>(g_.nodes().size()));
+    const auto parameters = box.begin() + g_.states();
+    plain_.setParameters(std::vector<Interval>(parameters, box.end()));
+    values_ = plain_(Interval(begin, end), std::vector<Interval>(box.begin(), parameters));
+    return values_;
+  }
+
+  /// The least that the output may be: as the mean value form about the middle knows it, too.
+  double lowest(double begin, double end, const Box& box, std::size_t output) {
+    const double plain = lowerOf(plainly(begin, end, box)[output]);
+    if (plain > 0 || !withSlopes_) return plain;
+    Box middle = box;
+    for (Interval& each : middle) each = Interval(midpoint(each));
+    const double time = midpoint(Interval(begin, end));
+    Interval value = plainly(time, time, middle)[output];
+    if (isEmpty(value)) return plain;
+    const std::vector<Interval> slopes = slopesOver(begin, end, box, output);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      const Interval away = i < box.size() ? box[i] - middle[i] : Interval(begin, end) - Interval(time);
+      if (!isThin(away)) value = value + slopes[i] * away;
+    }
+    return std::max(plain, lowerOf(value));
+  }
+
+  /// Of the output by states, parameters and, last, time; nothing where none are known.
+  std::vector<Interval> slopesOver(double begin, double end, const Box& box, std::size_t output) {
+    if (!withSlopes_) return {};
+    Work::count(Work::boundedNode, static_cast<double>(withSlopes_->tape().operations()));
+    const auto ofStates = box.begin() + g_.states();
+    std::vector<Interval> given(ofStates, box.end());
+    given.emplace_back(begin, end);
+    withSlopes_->setParameters(given);
+    const std::vector<Interval> all = (*withSlopes_)(Interval(0.0), std::vector<Interval>(box.begin(), ofStates));
+    const auto own = static_cast<std::size_t>(g_.outputs()), states = static_cast<std::size_t>(g_.states());
+    const auto from = [&](std::size_t at) { return all.begin() + static_cast<std::ptrdiff_t>(at); };
+    std::vector<Interval> slopes(from(own + output * states), from(own + (output + 1) * states));
+    const std::size_t first = own + own * states + output * given.size();
+    slopes.insert(slopes.end(), from(first), from(first + given.size()));
+    return slopes;
+  }
+
+  static double lowerOf(const Interval& value) {
+    return isEmpty(value) || std::isnan(value.lower()) ? -std::numeric_limits<double>::infinity() : value.lower();
+  }
+
+ private:
+  const Program& g_;
+  Evaluator<Interval> plain_;
+  std::optional<Evaluator<Interval>> withSlopes_;
+  std::vector<Interval> values_;
+};
+
 class ZeroFreeSearch {
  public:
-  ZeroFreeSearch(const Program& g, double horizon) : g_(g), evaluate_(g), horizon_(horizon) {}
+  ZeroFreeSearch(const Program& g, double horizon) : values_(g), horizon_(horizon) {}
 
   ZeroFree find(const Box& box, const std::atomic<bool>* cancelled) {
-    constexpr int slices = 64;
     constexpr std::size_t most = 1024;  // parts that are halved
     constexpr double close = 0x1p-24;   // of the horizon
+    box_ = box;
     for (int i = 0; i < slices; ++i)
       add(horizon_ * i / slices, i + 1 == slices ? horizon_ : horizon_ * (i + 1) / slices, box);
     for (std::size_t halved = 0; !parts_.empty(); ++halved) {
@@ -44,90 +110,150 @@ class ZeroFreeSearch {
         continue;
       }
       const bool isStopped = cancelled != nullptr && cancelled->load(std::memory_order_relaxed);
-      const bool isDone =
-          halved == most || isStopped || part.begin >= ended_ - close * horizon_ || !isHalved(part, first);
-      if (isDone) return {part.begin > 0 ? part.begin : -1, first};
+      const bool isDone = halved == most || isStopped || part.begin >= zeroBy_ - close * horizon_ ||
+                          !isHalved(part, static_cast<std::size_t>(first));
+      if (!isDone) continue;
+      if (!isStopped && !isZeroKnown()) lookForZero(part, static_cast<std::size_t>(first));
+      using enum ZeroFree::End;
+      return {part.begin > 0 ? part.begin : -1, first,
+              isStopped       ? ZeroFree::End::cancelled
+              : isZeroKnown() ? zero
+                              : open,
+              isZeroKnown() ? zeroBy_ : -1};
     }
-    return {horizon_, -1};
+    return {horizon_, -1, ZeroFree::End::horizon};
   }
 
  private:
   void add(double begin, double end, Box box) { parts_.push({begin, end, std::move(box), count_++}); }
 
-  /// The values over a part.
-  const std::vector<Interval>& valuesOf(double begin, double end, const Box& box) {
-    Work::count(Work::boundedNode, static_cast<double>(g_.nodes().size()));
-    const auto parameters = box.begin() + g_.states();
-    evaluate_.setParameters(std::vector<Interval>(parameters, box.end()));
-    values_ = evaluate_(Interval(begin, end), std::vector<Interval>(box.begin(), parameters));
-    return values_;
-  }
-  static double lowest(const Interval& value) {
-    return isEmpty(value) || std::isnan(value.lower()) ? -std::numeric_limits<double>::infinity() : value.lower();
-  }
   /// The output that is not proved to be above zero; -1: all are.
   int firstOpen(const OpenPart& part) {
-    const std::vector<Interval>& values = valuesOf(part.begin, part.end, part.box);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (!(lowest(values[i]) > 0)) return static_cast<int>(i);
+    const std::vector<Interval> plain = values_.plainly(part.begin, part.end, part.box);
+    for (std::size_t i = 0; i < plain.size(); ++i)
+      if (!(ValuesOverParts::lowerOf(plain[i]) > 0) && !(values_.lowest(part.begin, part.end, part.box, i) > 0))
+        return static_cast<int>(i);
     return -1;
   }
 
-  /// False where no half of it is any different.
-  bool isHalved(const OpenPart& part, int output) {
-    const auto o = static_cast<std::size_t>(output);
+  bool isZeroKnown() const { return zeroBy_ < std::numeric_limits<double>::infinity(); }
+
+  /// Whether the output is not above zero at one moment and these values, so that, continuous until it has no value
+  /// any more, it was zero before.
+  void noteWhereZero(double time, const Box& values, std::size_t output) {
+    const Interval there = values_.plainly(time, time, values)[output];
+    if (isEmpty(there) || there.upper() <= 0) zeroBy_ = std::min(zeroBy_, time);
+  }
+
+  /// Of a part that stayed open its corners, of the whole box corners and middle at some times from there on.
+  void lookForZero(const OpenPart& part, std::size_t output) {
+    for (const double time : {0.5 * (part.begin + part.end), part.end})
+      forEachCorner(part.box, [&](const Box& corner) { noteWhereZero(time, corner, output); });
+    Box middle = box_;
+    for (Interval& each : middle) each = Interval(midpoint(each));
+    for (int i = 1; i <= slices; ++i) {
+      const double time = horizon_ * i / slices;
+      if (!(time > part.begin) || isZeroKnown()) continue;
+      noteWhereZero(time, middle, output);
+      forEachCorner(box_, [&](const Box& corner) { noteWhereZero(time, corner, output); });
+    }
+  }
+
+  template <class Visit>
+  static void forEachCorner(const Box& box, const Visit& visit) {
+    constexpr std::size_t most = 6;  // quantities of which both ends are looked at
+    std::vector<std::size_t> wide;
+    for (std::size_t i = 0; i < box.size() && wide.size() < most; ++i)
+      if (!isThin(box[i])) wide.push_back(i);
+    Box corner = box;
+    for (Interval& each : corner) each = Interval(midpoint(each));
+    for (std::size_t number = 0; number < std::size_t{1} << wide.size(); ++number) {
+      for (std::size_t k = 0; k < wide.size(); ++k) {
+        const Interval& range = box[wide[k]];
+        corner[wide[k]] = Interval((number >> k & 1) != 0 ? range.upper() : range.lower());
+      }
+      visit(corner);
+    }
+  }
+
+  /// Its number in the box, or one more for time; one more still where nothing of it can be halved.
+  std::size_t whatToHalve(const OpenPart& part, std::size_t output) {
+    constexpr double shortest = 0x1p-40;  // of the horizon
+    const std::size_t time = part.box.size();
+    const auto canBeHalved = [&](std::size_t i) {
+      if (i == time) return part.end - part.begin > shortest * horizon_;
+      const double centre = midpoint(part.box[i]);
+      return part.box[i].lower() < centre && centre < part.box[i].upper();
+    };
+    const auto greatest = [&](const auto& of) {
+      std::size_t by = time + 1;
+      double most = 0;
+      for (std::size_t i = 0; i <= time; ++i)
+        if (const double own = canBeHalved(i) ? of(i) : 0; own > most) most = own, by = i;
+      return by;
+    };
+    const auto widthOf = [&](std::size_t i) { return i == time ? part.end - part.begin : width(part.box[i]); };
+    const std::vector<Interval> slopes = values_.slopesOver(part.begin, part.end, part.box, output);
+    const auto isKnown = [](const Interval& slope) { return isBounded(slope); };
+    if (!slopes.empty() && std::ranges::all_of(slopes, isKnown))
+      if (const std::size_t by = greatest([&](std::size_t i) { return magnitude(slopes[i]) * widthOf(i); }); by <= time)
+        return by;
+    // Where slopes have no bounds, what raises plain intervals' bound most, else what is left of most.
+    const double own = ValuesOverParts::lowerOf(values_.plainly(part.begin, part.end, part.box)[output]);
+    const auto raises = [&](std::size_t i) {
+      const auto lower = [&](double begin, double end, const Box& box) {
+        return ValuesOverParts::lowerOf(values_.plainly(begin, end, box)[output]);
+      };
+      if (i == time) return lower(part.begin, 0.5 * (part.begin + part.end), part.box) - own;
+      const auto [below, above] = halvesOf(part.box, i);
+      return std::min(lower(part.begin, part.end, below), lower(part.begin, part.end, above)) - own;
+    };
+    if (const std::size_t by = std::isfinite(own) ? greatest(raises) : time + 1; by <= time) return by;
+    return greatest([&](std::size_t i) { return widthOf(i) / (i == time ? horizon_ / slices : width(box_[i])); });
+  }
+
+  static std::pair<Box, Box> halvesOf(const Box& box, std::size_t i) {
+    std::pair<Box, Box> halves{box, box};
+    const double centre = midpoint(box[i]);
+    halves.first[i] = Interval(box[i].lower(), centre);
+    halves.second[i] = Interval(centre, box[i].upper());
+    return halves;
+  }
+
+  /// False where there is nothing that can be.
+  bool isHalved(const OpenPart& part, std::size_t output) {
     Box middle = part.box;
     for (Interval& each : middle) each = Interval(midpoint(each));
-    const Interval there = valuesOf(part.end, part.end, middle)[o];
-    if (!isEmpty(there) && there.upper() <= 0) ended_ = std::min(ended_, part.end);
-    const auto lower = [&](double begin, double end, const Box& box) { return lowest(valuesOf(begin, end, box)[o]); };
-    constexpr double shortest = 0x1p-40;  // of the horizon
-    const double mid = 0.5 * (part.begin + part.end);
-    const std::size_t time = part.box.size(), none = time + 1;
-    const double own = lower(part.begin, part.end, part.box);
-    double best = own;
-    std::size_t by = none;
-    if (part.end - part.begin > shortest * horizon_) by = time, best = lower(part.begin, mid, part.box);
-    for (std::size_t i = 0; i < part.box.size(); ++i) {
-      const double centre = midpoint(part.box[i]);
-      if (!(part.box[i].lower() < centre && centre < part.box[i].upper())) continue;
-      Box half = part.box;
-      half[i] = Interval(part.box[i].lower(), centre);
-      double least = lower(part.begin, part.end, half);
-      half[i] = Interval(centre, part.box[i].upper());
-      least = std::min(least, lower(part.begin, part.end, half));
-      if (least > best) best = least, by = i;
-    }
-    if (by == none) return false;
+    noteWhereZero(part.end, middle, output);
+    const std::size_t by = whatToHalve(part, output), time = part.box.size();
+    if (by > time) return false;
     const OpenPart whole = part;
     parts_.pop();
     if (by == time) {
+      const double mid = 0.5 * (whole.begin + whole.end);
       add(whole.begin, mid, whole.box);
       add(mid, whole.end, whole.box);
-      return true;
+    } else {
+      auto [below, above] = halvesOf(whole.box, by);
+      add(whole.begin, whole.end, std::move(below));
+      add(whole.begin, whole.end, std::move(above));
     }
-    Box half = whole.box;
-    const double centre = midpoint(whole.box[by]);
-    half[by] = Interval(whole.box[by].lower(), centre);
-    add(whole.begin, whole.end, half);
-    half[by] = Interval(centre, whole.box[by].upper());
-    add(whole.begin, whole.end, std::move(half));
     return true;
   }
 
-  const Program& g_;
-  Evaluator<Interval> evaluate_;
+  static constexpr int slices = 64;  // of the horizon, to begin with
+  ValuesOverParts values_;
   double horizon_;
-  std::vector<Interval> values_;
+  Box box_;
   std::priority_queue<OpenPart> parts_;
   std::size_t count_ = 0;
-  double ended_ = std::numeric_limits<double>::infinity();  // s: there one is zero or less, for some values
+  double zeroBy_ = std::numeric_limits<double>::infinity();  // s: until then one is zero, for some values
 };
 
 }  // namespace
 
 ZeroFree zeroFree(const Program& g, const Box& box, double horizon, const std::atomic<bool>* cancelled) {
-  if (g.outputs() == 0) return {horizon, -1};
+  if (g.outputs() == 0) return {horizon, -1, ZeroFree::End::horizon};
   return ZeroFreeSearch(g, horizon).find(box, cancelled);
 }
 

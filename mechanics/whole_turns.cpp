@@ -49,7 +49,7 @@ class NominalCourse {
     }
   }
 
-  /// False where it cannot be followed to the end.
+  /// To the end, or to where it can be followed no farther, as at a dead point. False where it does not even start.
   bool follow() {
     constexpr double longest = 0x1p-8, shortest = 0x1p-24;  // of the horizon
     std::vector<double> x = assembly_.closedAt(assembly_.initialState(), 0);
@@ -60,7 +60,7 @@ class NominalCourse {
       const double next = std::min(done + step, 1.0);
       std::vector<double> there = assembly_.closedAt(x, next * horizon_);
       if (there.empty() || !note()) {
-        if ((step /= 2) < shortest) return false;
+        if ((step /= 2) < shortest) return done > 0;
         continue;
       }
       x = std::move(there);

@@ -12,8 +12,9 @@
 
 namespace gamut {
 
-/// Of the angles of such loops, over times from 0 to `horizon` [s]; none where not all loops are of this kind, or the
-/// nominal machine cannot be followed so far, or turns in a way that no few times of driven angles follow.
+/// Of the angles of such loops, over times from 0 to `horizon` [s], or to where the nominal machine comes to a dead
+/// point; none where not all loops are of this kind, or the nominal machine cannot be followed from the start, or turns
+/// in a way that no few times of driven angles follow.
 std::optional<AngleCourses> placedLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                                         double horizon);
 

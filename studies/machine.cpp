@@ -164,12 +164,12 @@ Program placedOf(const Study& study, std::size_t values,
   });
 }
 
-/// What may be where this margin is zero.
+/// What happens where this margin is zero.
 std::string singularAt(const Mechanism& mechanism, const Assembly<Recorded>::PlacedMargin& margin) {
   const Mechanism::Closed& loop = mechanism.loops()[margin.loop];
   return margin.angle.empty()
-             ? fmt::format("the loop '{}' may come to a dead point of {}", loop.element, fmt::join(loop.by, ", "))
-             : fmt::format("{} of the loop '{}' may be half a turn from where it is in the nominal machine",
+             ? fmt::format("the loop '{}' comes to a dead point of {}", loop.element, fmt::join(loop.by, ", "))
+             : fmt::format("{} of the loop '{}' comes to half a turn from where it is in the nominal machine",
                            margin.angle, loop.element);
 }
 
@@ -212,8 +212,10 @@ Program recordedEnding(const Program& regular) {
 
 /// Where directions go far round, as those of plays, or something varies, of which nothing that is followed knows
 /// enough; else coordinates are followed, which knows more between output times. None where a witness is asked for,
-/// which follows them as states, nor where some value of the box starts where nothing goes on from.
-std::optional<AngleCourses> placedIn(const Study& study, const std::vector<std::string>& parameters) {
+/// which follows them as states, nor where some value of the box starts where nothing goes on from: that is
+/// `irregular`.
+std::optional<AngleCourses> placedIn(const Study& study, const std::vector<std::string>& parameters,
+                                     std::string& irregular) {
   constexpr double farRound = 1.5;  // rad, as in circles.cpp
   const bool isRound = std::ranges::any_of(study.uncertain, [](const UncertainQuantity& quantity) {
     return quantity.varies || (quantity.unit == "rad" && width(quantity.uncertain.range) > farRound);
@@ -226,8 +228,14 @@ std::optional<AngleCourses> placedIn(const Study& study, const std::vector<std::
   Box box = {Interval(0.0)};
   std::ranges::copy(boxOf(study, parameters), std::back_inserter(box));
   constexpr double soon = 0x1p-6;  // of the horizon
-  if (!(zeroFree(recordedRegular(study, *placed).values, box, soon * study.horizon).until > 0)) placed.reset();
-  return placed;
+  const Regular regular = recordedRegular(study, *placed);
+  const ZeroFree known = zeroFree(regular.values, box, soon * study.horizon);
+  if (known.until > 0) return placed;
+  const std::string& what = regular.otherwise[static_cast<std::size_t>(known.first)];
+  irregular = known.end == ZeroFree::End::zero
+                  ? fmt::format("{} for some values, at {:.6g} s at the latest", what, known.zeroBy)
+                  : fmt::format("it could not be excluded that {} where it starts", what);
+  return std::nullopt;
 }
 
 Program recordedOutputs(const Study& study, const Rest* rest, bool withinEnds = false,
@@ -393,14 +401,14 @@ ClosedBox closedBox(const Machine& machine, Box other, const Box& known = {}, co
 /// Dependent coordinates, and rates that depend on others, start at what is left between Newton's steps and the closed
 /// loops, for all values of the box; at rest all numbers are of this kind. `open`: what that is, where it is known
 /// already.
-void closeFamilies(Machine& machine, const Box& open, const Machine::Progress& progress) {
+void closeFamilies(Machine& machine, const Box& open, const std::string& irregular, const Machine::Progress& progress) {
   const Mechanism& mechanism = machine.study.mechanism;
   if (machine.rest) {
     machine.closing = machine.rest->families();
     for (std::size_t i = 0; i < machine.states; ++i) machine.remainders.push_back(static_cast<int>(i));
   } else if (mechanism.isClosed() && !machine.placed) {
     machine.closing = {recordClosing(mechanism, machine.freeParameters)};
-    refuseVaryingLoops(machine.study, machine.freeParameters);
+    refuseVaryingLoops(machine.study, machine.freeParameters, irregular);
     std::vector<std::string> dependents = mechanism.dependents();
     if (mechanism.areLoopsHeld()) {
       machine.closing.push_back(recordClosingRates(mechanism, machine.freeParameters));
@@ -489,13 +497,14 @@ Machine::Machine(Study of, const Progress& progress) : study(std::move(of)), fre
   const double start = processCpuSeconds();
   if (progress) progress("equations", 0);
   rest = restOf(study);
-  placed = placedIn(study, freeParameters);
+  std::string irregular;
+  placed = placedIn(study, freeParameters, irregular);
   if (placed) regular = recordedRegular(study, *placed);
   takeNumbers(*this);
   const Box open = approachLoops(*this, progress);
   motion.motion = recordedMotion(study, rest.get(), placed);
   if (rest) plain = recordedOutputs(study, rest.get(), true);
-  closeFamilies(*this, open, progress);
+  closeFamilies(*this, open, irregular, progress);
   cpu = processCpuSeconds() - start;
   takeCourses(*this);
   takeLevels(*this);

@@ -34,7 +34,7 @@ struct ConstantQuantity {
 /// may be of another one, or have no value. Samples end there by their rates.
 struct Regular {
   Program values;                      ///< none: always
-  std::vector<std::string> otherwise;  ///< what there may be where one of these is not above zero, in words
+  std::vector<std::string> otherwise;  ///< what happens where one of these is zero, in words
 };
 
 /// Programs of a study take initial values, then free parameters: the uncertain quantities that no state starts with.

@@ -187,16 +187,21 @@ void refuseOpenLoops(const Study& study, const std::vector<std::string>& freePar
          "narrower intervals, or a position that is farther from where the loop cannot be closed");
 }
 
-void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters) {
+void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters,
+                        const std::string& irregular) {
   if (std::ranges::none_of(study.uncertain, &UncertainQuantity::varies)) return;
   const std::set<int> inRows = parametersOf(std::array{recordLoops(study.mechanism, freeParameters)});
   for (const UncertainQuantity& uncertain : study.uncertain) {
     const auto name = std::ranges::find(freeParameters, uncertain.quantity);
     if (uncertain.varies && name != freeParameters.end() &&
-        inRows.contains(static_cast<int>(name - freeParameters.begin())))
+        inRows.contains(static_cast<int>(name - freeParameters.begin()))) {
+      if (!irregular.empty())
+        refuse(study.places.of(study.mechanism.loops().front().element), irregular,
+               "another start, or narrower intervals: from a dead point a loop may go on in either way");
       refuse(study.places.of(uncertain.quantity),
              fmt::format("'{}' varies in time, but where a loop is closed follows from it", uncertain.quantity),
              "a quantity that is constant, or one that no loop follows from, such as a mass or a force");
+    }
   }
 }
 

@@ -28,7 +28,9 @@ void refuseMasslessLoops(const Study& study);
                                      const Box& part, bool isPosition, std::span<const Program> equations);
 
 /// Throws a StudyError if a quantity that varies in time is in the rows that close loops, at the start or elsewhere:
-/// positions would have to follow it at once.
-void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters);
+/// positions would have to follow it at once. `irregular`: what keeps loops that closed forms close from being put so,
+/// if they are such.
+void refuseVaryingLoops(const Study& study, const std::vector<std::string>& freeParameters,
+                        const std::string& irregular);
 
 }  // namespace gamut

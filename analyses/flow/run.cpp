@@ -418,7 +418,7 @@ Tube FlowRun::startAlone(std::vector<Interval> states, int outputs, std::size_t 
   return tube;
 }
 
-void FlowRun::endEarly(Tube& tube, const std::string& why, double horizon, const std::vector<double>& outputTimes,
+void FlowRun::endEarly(Tube& tube, const FlowCause& cause, double horizon, const std::vector<double>& outputTimes,
                        const FlowOptions& options) {
   const std::size_t rows = tube.reachedTimes();
   const double end = tube.times_.back();
@@ -443,8 +443,8 @@ void FlowRun::endEarly(Tube& tube, const std::string& why, double horizon, const
     if (time > tube.times_.back()) tube.times_.push_back(time);
   if (horizon > tube.times_.back()) tube.times_.push_back(horizon);
   if (!isWhole) return;  // for a cause of its own
-  tube.cause_ = {FlowCause::Kind::edge, why};
-  tube.why_ = "at " + toString(end) + " s " + tube.cause_.sentence();
+  tube.cause_ = cause;
+  tube.why_ = (cause.isStop() ? "" : "at " + toString(end) + " s ") + cause.sentence();
 }
 
 void FlowRun::dropStates(Tube& tube, int n) {

@@ -70,8 +70,8 @@ class FlowRun {
   static void explain(Tube& tube, const FlowOptions& options, const FlowCause& limit);
   static double loosenessOf(const Tube& tube, const FlowOptions& options);
   /// What a tube over a part of the time, from 0 to its horizon, is of this horizon and these output times, of which it
-  /// has those up to its own: it ends there, at the edge of where outputs are defined, in these words.
-  static void endEarly(Tube& tube, const std::string& why, double horizon, const std::vector<double>& outputTimes,
+  /// has those up to its own: it ends there by this cause.
+  static void endEarly(Tube& tube, const FlowCause& cause, double horizon, const std::vector<double>& outputTimes,
                        const FlowOptions& options);
   /// One that ends where it starts, in these states, so that of so many outputs, and as many levels, nothing is known.
   static Tube startAlone(std::vector<Interval> states, int outputs, std::size_t levels);

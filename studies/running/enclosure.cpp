@@ -11,7 +11,7 @@
 #include "analyses/flow/circles.hpp"
 #include "analyses/flow/flow.hpp"
 #include "analyses/flow/image.hpp"
-#include "scalars/program/recorder.hpp"
+#include "scalars/program/time_given.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/sampled_study.hpp"
 #include "studies/running/units.hpp"
@@ -160,16 +160,6 @@ class Encloser {
         narrow(i, cuts_[level], rowOfBounds(i, level == 0 ? interval.at : cuts_[level - 1]));
     }
     return isWhole;
-  }
-
-  /// With time as a last parameter.
-  static Program withTimeGiven(const Program& g) {
-    Recorder recorder(g.states(), g.parameters() + 1);
-    std::vector<int> instead(g.nodes().size(), -1), outputs;
-    instead[static_cast<std::size_t>(g.states() + g.parameters())] = recorder.parameter(g.parameters());
-    const std::vector<int> here = recorder.append(g, {}, instead);
-    for (const int node : g.outputNodes()) outputs.push_back(here[static_cast<std::size_t>(node)]);
-    return recorder.finish(outputs);
   }
 
   FlowOptions options() const {

@@ -1,12 +1,16 @@
 #include "studies/running/flow_of_study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "analyses/flow/run.hpp"
 #include "analyses/zero_free.hpp"
 #include "scalars/program/recorder.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 
@@ -31,6 +35,16 @@ Program programOf(const Program& g, const std::vector<int>& outputs, std::vector
   return Recorder(g).finish(nodes);
 }
 
+/// Why nothing is said of what comes behind: because of what happens there, is not known not to, or was not looked at.
+FlowCause causeOf(const ZeroFree& known, const Regular& regular, const Box& box) {
+  if (known.end == ZeroFree::End::cancelled) return {FlowCause::Kind::interrupted};
+  const std::string& what = regular.otherwise[static_cast<std::size_t>(known.first)];
+  if (known.end == ZeroFree::End::open) return {FlowCause::Kind::edge, "it could not be excluded that " + what};
+  const bool isOne = std::ranges::all_of(box, [](const Interval& range) { return isThin(range); });
+  return {FlowCause::Kind::edge, fmt::format("{}{}, at {} s at the latest", what, isOne ? "" : " for some values",
+                                             outwardText(known.zeroBy, known.zeroBy, 6).second)};
+}
+
 }  // namespace
 
 FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool>* cancelled) {
@@ -52,14 +66,20 @@ FlowOptions flowOptions(const Machine& machine, int jobs, const std::atomic<bool
 
 Tube encloseMotion(const Motion& motion, const Regular& regular, Program outputs, FlowOptions options, const Box& box,
                    double horizon, const std::vector<double>& times, const std::vector<Box>& levels) {
+  const Box states(box.begin(), box.begin() + motion.f.states());
+  if (options.cancelled != nullptr && *options.cancelled) {  // equations of many outputs take long to be prepared
+    Tube tube = FlowRun::startAlone(states, outputs.outputs(), levels.size());
+    FlowRun::endEarly(tube, {FlowCause::Kind::interrupted}, horizon, times, options);
+    return tube;
+  }
   const ZeroFree known = zeroFree(regular.values, box, horizon, options.cancelled);
   if (known.first < 0)
     return Flow(motion.f, std::move(outputs), std::move(options)).enclose(box, horizon, times, levels);
   std::vector<double> early;
   std::ranges::copy_if(times, std::back_inserter(early), [&](double time) { return time <= known.until; });
-  Tube tube = FlowRun::startAlone({box.begin(), box.begin() + motion.f.states()}, outputs.outputs(), levels.size());
+  Tube tube = FlowRun::startAlone(states, outputs.outputs(), levels.size());
   if (known.until > 0) tube = Flow(motion.f, std::move(outputs), options).enclose(box, known.until, early, levels);
-  FlowRun::endEarly(tube, regular.otherwise[static_cast<std::size_t>(known.first)], horizon, times, options);
+  FlowRun::endEarly(tube, causeOf(known, regular, box), horizon, times, options);
   return tube;
 }
 

@@ -30,8 +30,56 @@ TEST(ZeroFree, EndsWhereTheFirstValueOfTheBoxDoes) {
   EXPECT_LT(span.until, 0.5);
   EXPECT_GT(span.until, 0.5 - 1e-6);
   EXPECT_EQ(span.first, 0);
+  EXPECT_EQ(span.end, ZeroFree::End::zero);
+  EXPECT_GE(span.zeroBy, 0.5);
+  EXPECT_LT(span.zeroBy, 0.5 + 1e-6);
   EXPECT_EQ(zeroFree(g, boxOf({Interval(0.5, 0.99)}), 1.0).until, 1.0);
   EXPECT_EQ(zeroFree(g, boxOf({Interval(0.5, 0.99)}), 1.0).first, -1);
+  EXPECT_EQ(zeroFree(g, boxOf({Interval(0.5, 0.99)}), 1.0).end, ZeroFree::End::horizon);
+}
+
+/// What is zero by some time is so for some value; what only touches zero, and what is too involved, is open.
+TEST(ZeroFree, TellsZerosFromWhatItDoesNotKnow) {
+  for (const double root : {0.3, 0.7})
+    for (const double width : {0.0, 0.01, 0.15}) {
+      const Program g =
+          valuesOf(2, [](const auto& t, const auto& p) { return p[0] + 0.1 * (p[1] - square(p[1])) - t; });
+      const ZeroFree span = zeroFree(g, boxOf({Interval(root - width, root + width), Interval(0.5, 1.5)}), 1.0);
+      const double first = root - width - 0.075;
+      ASSERT_EQ(span.end, ZeroFree::End::zero) << root << ' ' << width;
+      EXPECT_LE(span.until, first);
+      EXPECT_GT(span.until, first - 1e-6);
+      EXPECT_GE(span.zeroBy, first);
+      EXPECT_LT(span.zeroBy, first + 0.02);
+    }
+  const Program touching = valuesOf(0, [](const auto& t, const auto&) { return square(t - 0.3); });
+  EXPECT_EQ(zeroFree(touching, boxOf({}), 1.0).end, ZeroFree::End::open);
+  // Above zero, of which so few parts do not know enough.
+  const Program close = valuesOf(4, [](const auto& t, const auto& p) {
+    const auto off = p[0] * p[1] - p[2] * p[3] + 0.1 * t;
+    return off * (p[0] * p[1]) - off * (p[2] * p[3] - 0.1 * t) + 1e-9;
+  });
+  const ZeroFree span = zeroFree(close, boxOf(std::vector<Interval>(4, Interval(0, 2))), 1.0);
+  EXPECT_EQ(span.end, ZeroFree::End::open);
+  EXPECT_EQ(span.first, 0);
+}
+
+/// A side of a triangle between two that turn: plain intervals would need many more parts.
+TEST(ZeroFree, KnowsSlopes) {
+  const Program distance = valuesOf(1, [](const auto& t, const auto& p) {
+    const auto angle = 6.5 * t + p[0];
+    return sqrt(square(1.0 - 3.0 * cos(angle)) + square(3.0 * sin(angle))) - 1.9;
+  });
+  EXPECT_EQ(zeroFree(distance, boxOf({Interval(-1, 1)}), 1.0).until, 1.0);
+}
+
+/// Across a jump slopes say nothing.
+TEST(ZeroFree, DoesNotStepOverJumps) {
+  const Program jumping = valuesOf(1, [](const auto& t, const auto& p) { return 0.5 - sign(t - p[0]); });
+  const ZeroFree span = zeroFree(jumping, boxOf({Interval(0.4, 0.6)}), 1.0);
+  EXPECT_LE(span.until, 0.4);
+  const Program bent = valuesOf(1, [](const auto& t, const auto& p) { return abs(t - p[0]) - 1e-3; });
+  EXPECT_LE(zeroFree(bent, boxOf({Interval(0.4, 0.6)}), 1.0).until, 0.4 - 1e-3);
 }
 
 /// (t − ½)² − c is positive at both ends of any part about ½.
@@ -79,6 +127,7 @@ TEST(ZeroFree, IsWhatIsKnownWhenItIsCancelled) {
   const ZeroFree span = zeroFree(g, boxOf({Interval(0.5, 2)}), 1.0, &cancelled);
   EXPECT_LT(span.until, 0.5);
   EXPECT_EQ(span.first, 0);
+  EXPECT_EQ(span.end, ZeroFree::End::cancelled);
 }
 
 /// ẋ = −x until 0.7 s.
@@ -91,7 +140,7 @@ Tube endingAt(double end, const std::vector<double>& times) {
   for (const double time : times)
     if (time <= end) early.push_back(time);
   Tube tube = Flow(f, g, options).enclose({Interval(1, 2)}, end, early, {{Interval(1.2, 1.8)}});
-  FlowRun::endEarly(tube, "it turns", 1.0, times, options);
+  FlowRun::endEarly(tube, {FlowCause::Kind::edge, "it turns"}, 1.0, times, options);
   return tube;
 }
 
@@ -114,10 +163,18 @@ TEST(FlowRun, EndsEarlyWithNothingBeyond) {
 
 TEST(FlowRun, MayEndEarlyAtAnOutputTime) { EXPECT_EQ(endingAt(0.5, {0.25, 0.5, 0.75}).reachedTimes(), 3u); }
 
+/// A limit is told as one, whatever may be beyond.
+TEST(FlowRun, MayEndEarlyWhereItWasStopped) {
+  Tube tube = FlowRun::startAlone({Interval(1, 2)}, 1, 1);
+  FlowRun::endEarly(tube, {FlowCause::Kind::interrupted}, 1.0, {0.25, 0.5}, {});
+  EXPECT_TRUE(tube.wasStopped());
+  EXPECT_EQ(tube.why(), "interrupted");
+}
+
 /// Not even of the start is anything said.
 TEST(FlowRun, MayEndWhereItStarts) {
   Tube tube = FlowRun::startAlone({Interval(1, 2)}, 1, 1);
-  FlowRun::endEarly(tube, "it turns", 1.0, {0.25, 0.5}, {});
+  FlowRun::endEarly(tube, {FlowCause::Kind::edge, "it turns"}, 1.0, {0.25, 0.5}, {});
   EXPECT_EQ(tube.reached(), 0);
   ASSERT_EQ(tube.reachedTimes(), 1u);
   EXPECT_TRUE(isEntire(tube.outputs(0)[0]));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -329,8 +330,54 @@ TEST(PlayInLoops, EndsWhereASideMayVanish) {
   };
   EXPECT_GE(until("99").first, 0.9 * met);
   EXPECT_LE(until("99").first, met);
-  EXPECT_THAT(until("99").second, ::testing::HasSubstr("the loop 'pin' may"));
+  EXPECT_THAT(until("99").second, ::testing::HasSubstr("the loop 'pin' comes to"));
   EXPECT_EQ(until("101"), (std::pair<double, std::string>(1, "")));
+}
+
+/// A crank that is driven on to where coupler and rocker stretch, of the nominal machine too: the run ends before it,
+/// and says where that is and what it is, instead of refusing what varies.
+TEST(PlayInLoops, EndsWhereTheNominalMachineComesToADeadPoint) {
+  const double stretched = (std::acos((0.09 + 0.1225 - 0.25) / 0.21) - 80 * std::numbers::pi / 180) / 1.5;
+  for (const std::string varies : {"", "varies = \"freely\"\n"}) {
+    SCOPED_TRACE(varies);
+    const Results results = enclosed(
+        linkage("80 deg + 1.5 rad/s*t", {"300 mm", "400 mm", "100 mm", "350 mm"}, "-110 deg", "150 deg", "0.5 mm", 1)
+            .with(varies, {"rocker.angle"}));
+    expectEnd(results, 0.95 * stretched, stretched,
+              "the loop 'pin' comes to a dead point of coupler.angle, rocker.angle for some values, at 0.2");
+    EXPECT_THAT(results.interval.why, ::testing::HasSubstr("the nominal motion comes to a dead point of"));
+    EXPECT_THAT(results.interval.advice, ::testing::HasSubstr("a drive of another joint"));
+    EXPECT_LT(results.interval.at.upper(1, 0) - results.interval.at.lower(1, 0), 0.05);
+  }
+}
+
+/// From where coupler and rocker are stretched it may go on in two ways.
+TEST(PlayInLoops, SaysWhichLoopStartsAtADeadPoint) {
+  const std::string study =
+      linkage("100.2 deg - 0.5 rad/s*t", {"300 mm", "400 mm", "100 mm", "350 mm"}, "-136.4 deg", "140 deg", "1 mm", 1)
+          .with("varies = \"freely\"\n", {"rocker.angle"});
+  try {
+    run(readStudyText(study, "s"));
+    ADD_FAILURE() << "not refused";
+  } catch (const StudyError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("the loop 'pin' comes to a dead point of coupler.angle"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("expected another start, or narrower intervals"));
+  }
+}
+
+/// A drag link has no dead point, however far the crank may be from where it nominally is; no limit of time is one.
+TEST(PlayInLoops, NamesNoDeadPointWhereThereIsNone) {
+  const auto drag = [](const std::string& most) {
+    return linkage("start + 6.5 rad/s*t", {"300 mm", "250 mm", "350 mm", "100 mm"}, "-0.3 rad", "1.5 rad", "1 mm", 1)
+               .with("", {"rocker_arm_end.position.x"}) +
+           "[mechanism.parameters]\nstart = \"0.5 rad\"\n[[uncertain]]\nquantity = \"start\"\ninterval = \"± " + most +
+           " deg\"\n";
+  };
+  for (const char* most : {"5", "30", "60"})
+    EXPECT_EQ(regularUntil(drag(most)), (std::pair<double, std::string>(1, "")));
+  const std::atomic<bool> cancelled = true;
+  const Machine machine(readStudyText(drag("60"), "s"));
+  EXPECT_EQ(zeroFree(machine.regular.values, machine.box, 1, &cancelled).end, ZeroFree::End::cancelled);
 }
 
 /// Nothing is known of a motion that starts where it may go either way.
@@ -349,7 +396,7 @@ TEST(PlayInLoops, EndsWhereAnAngleMayBeHalfATurnFromItsCourse) {
                         "[mechanism.parameters]\nsweep = \"0.5 rad/s\"\n[[uncertain]]\nquantity = \"sweep\"\n" +
                         "interval = [\"0.5 rad/s\", \"" + most + " rad/s\"]\n");
   };
-  EXPECT_THAT(until("6").second, ::testing::HasSubstr("coupler.angle of the loop 'pin' may be half a turn"));
+  EXPECT_THAT(until("6").second, ::testing::HasSubstr("coupler.angle of the loop 'pin' comes to half a turn"));
   EXPECT_GT(until("6").first, 0.3);
   EXPECT_LT(until("6").first, 0.9);
   EXPECT_EQ(until("2"), (std::pair<double, std::string>(1, "")));
