@@ -47,6 +47,7 @@ void forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancelle
   std::mutex mutex;
   const auto run = [&] {
     const AmongWorkers among;
+    if (cancelled != nullptr && *cancelled) return;  // a worker may take long to make
     try {
       auto worker = [&] {
         const Work::Aside own;

@@ -316,10 +316,17 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
   return tools;
 }
 
+/// Before something that takes long to be prepared.
+void FlowFollower::goOnUnlessCancelled() const {
+  const std::atomic<bool>* cancelled = task_.options.cancelled;
+  if (cancelled != nullptr && cancelled->load(std::memory_order_relaxed)) throw Cancelled();
+}
+
 /// Of outputs in the monomials of one layout, states in those of another.
 FlowFollower::OutputTools FlowFollower::outputToolsFor(const Program& g, std::size_t layout,
                                                        std::size_t ofStates) const {
   const Work::Aside own;
+  goOnUnlessCancelled();
   const std::shared_ptr<const Monomials>& monomials = task_.layouts[layout].monomials;
   const Monomials& states = *task_.layouts[ofStates].monomials;
   bool isPrefix = monomials->symbols() == states.symbols() && monomials->count() < states.count();
@@ -331,6 +338,7 @@ FlowFollower::OutputTools FlowFollower::outputToolsFor(const Program& g, std::si
 std::unique_ptr<FlowOutputChords> FlowFollower::chordsIn(const Program& g, std::size_t layout,
                                                          std::size_t ofStates) const {
   const Work::Aside own;
+  goOnUnlessCancelled();
   return std::make_unique<FlowOutputChords>(g, task_.layouts[layout].monomials, task_.layouts[ofStates].monomials,
                                             task_.order, task_.horizon, task_.quantum, task_.options.cancelled);
 }

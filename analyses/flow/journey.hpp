@@ -160,6 +160,7 @@ class FlowFollower {
   Interval overBoxes(int output);
   MeanValueOutputs* outputsWhileHeld(std::vector<char> held);
   std::unique_ptr<Tools> toolsFor(const FlowPiece& piece, const std::vector<char>& held) const;
+  void goOnUnlessCancelled() const;
   OutputTools outputToolsFor(const Program& g, std::size_t layout, std::size_t ofStates) const;
   std::unique_ptr<FlowOutputChords> chordsIn(const Program& g, std::size_t layout, std::size_t ofStates) const;
   enum class Settle : char { unnoticed, ratherThanBisect, surely };

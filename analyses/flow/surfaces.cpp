@@ -58,6 +58,8 @@ std::vector<int> argumentsAmong(const Program& all, const std::vector<int>& node
 
 std::optional<FlowFormulation> withSurfaces(const FlowFormulation& of) {
   constexpr std::size_t most = 4;  // each costs as much as a state does
+  if (std::ranges::none_of(of.motion.nodes(), [](const Node& node) { return node.op == Op::sign; }))
+    return std::nullopt;
   const int n = of.motion.states(), k = of.motion.parameters();
   Recorder joint(n, k);
   std::vector<std::vector<int>> results;

@@ -526,18 +526,19 @@ bool EnsembleRun::integratePieces(SampleBlock& block, std::vector<std::size_t>& 
     if (ended[piece] == pieces[piece].count) continue;
     if (shared_->isMine(isSpread(block) ? pieces[piece].first / gamut::packWidth : left++)) mine.push_back(piece);
   }
-  std::atomic<bool> ends{false};
+  std::atomic<bool> ends{isStopped()};
   const auto isDue = [this] { return isPauseDue_ && isPauseDue_(); };
   const std::uint64_t before = Work::counted();
   forEachIndex(options_.jobs, mine.size(), &ends, [&] {
-    return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t number) mutable {
+    return [&, integrator = std::unique_ptr<PieceIntegrator>()](std::size_t number) mutable {
+      if (!integrator) integrator = std::make_unique<PieceIntegrator>(system_, options_, packWidth());
       const std::size_t piece = mine[number];
       const auto [first, count] = pieces[piece];
       for (std::size_t i = first; i < first + count; ++i) {
         sampling_.toValues(block.first() + i, system_.uncertain, block.values(i));
         block.levels[i] = levelsHolding(system_, cuts_, block.values(i));
       }
-      integrator.integrate(block, pieces[piece], [&](std::size_t more) {
+      integrator->integrate(block, pieces[piece], [&](std::size_t more) {
         ended[piece] += more;
         for (std::size_t k = 0; k < more; ++k) completeOne();
       });

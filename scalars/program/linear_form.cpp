@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace gamut {
 
@@ -43,57 +45,98 @@ std::optional<LinearForm> combined(const LinearForm& a, const Interval& by, cons
 
 }  // namespace
 
-std::optional<LinearForm> linearFormOf(const Program& f, int node) {
-  std::vector<std::optional<LinearForm>> forms;
-  LinearForm zero;
-  zero.states.assign(f.states(), 0.0);
-  zero.parameters.assign(f.parameters(), 0.0);
-  for (int i = 0; i <= node; ++i) {
+namespace {
+
+/// The other operand of a product with a number that is one double; -1: it is none.
+int factorOf(const Program& f, const Node& product) {
+  const auto isNumber = [&](int which) {
+    const Node& of = f.nodes()[which];
+    return of.op == Op::constant && isThin(f.constants()[of.a]);
+  };
+  return isNumber(product.a) ? product.b : isNumber(product.b) ? product.a : -1;
+}
+
+/// The nodes that its form is made of, by rising number, it itself last; none where one of them has no form.
+std::vector<int> partsOfForm(const Program& f, int node) {
+  std::vector<int> parts, open{node};
+  std::unordered_set<int> seen;
+  const auto need = [&](int operand) {
+    if (seen.insert(operand).second) open.push_back(operand);
+  };
+  while (!open.empty()) {
+    const int i = open.back();
+    open.pop_back();
+    parts.push_back(i);
     const Node& n = f.nodes()[i];
-    std::optional<LinearForm> form;
-    const auto operand = [&](int which) -> const std::optional<LinearForm>& { return forms[which]; };
-    const auto constant = [&](int which) {
-      const Node& of = f.nodes()[which];
-      return of.op == Op::constant ? f.constants()[of.a] : Interval::entire();
-    };
     switch (n.op) {
       case Op::state:
-        form = zero;
-        form->states[n.a] = 1;
-        break;
       case Op::parameter:
-        form = zero;
-        form->parameters[n.a] = 1;
-        break;
       case Op::constant:
-        form = zero;
-        form->constant = f.constants()[n.a];
         break;
       case Op::add:
       case Op::sub:
-        if (operand(n.a) && operand(n.b))
-          form = combined(*operand(n.a), Interval(n.op == Op::add ? 1.0 : -1.0), *operand(n.b));
+        need(n.a);
+        need(n.b);
         break;
       case Op::neg:
-        if (operand(n.a)) form = combined(zero, Interval(-1.0), *operand(n.a));
+        need(n.a);
         break;
       case Op::mul:
-        if (isThin(constant(n.a)) && operand(n.b))
-          form = combined(zero, constant(n.a), *operand(n.b));
-        else if (isThin(constant(n.b)) && operand(n.a))
-          form = combined(zero, constant(n.b), *operand(n.a));
-        break;
+        if (const int other = factorOf(f, n); other >= 0) {
+          need(other);
+          break;
+        }
+        return {};
       default:
+        return {};
+    }
+  }
+  std::ranges::sort(parts);
+  return parts;
+}
+
+}  // namespace
+
+std::optional<LinearForm> linearFormOf(const Program& f, int node) {
+  std::unordered_map<int, LinearForm> forms;
+  LinearForm zero;
+  zero.states.assign(f.states(), 0.0);
+  zero.parameters.assign(f.parameters(), 0.0);
+  const std::vector<int> parts = partsOfForm(f, node);
+  for (const int i : parts) {
+    const Node& n = f.nodes()[i];
+    std::optional<LinearForm> form = zero;
+    switch (n.op) {
+      case Op::state:
+        form->states[n.a] = 1;
+        break;
+      case Op::parameter:
+        form->parameters[n.a] = 1;
+        break;
+      case Op::constant:
+        form->constant = f.constants()[n.a];
+        break;
+      case Op::neg:
+        form = combined(zero, Interval(-1.0), forms.at(n.a));
+        break;
+      case Op::mul: {
+        const int other = factorOf(f, n);
+        form = combined(zero, f.constants()[f.nodes()[other == n.b ? n.a : n.b].a], forms.at(other));
+        break;
+      }
+      default:
+        form = combined(forms.at(n.a), Interval(n.op == Op::add ? 1.0 : -1.0), forms.at(n.b));
         break;
     }
-    forms.push_back(std::move(form));
+    if (!form) return std::nullopt;
+    forms.emplace(i, *std::move(form));
   }
-  std::optional<LinearForm> result = std::move(forms.back());
-  if (!result) return result;
+  if (parts.empty()) return std::nullopt;
+  LinearForm& result = forms.at(node);
   const auto size = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
-  result->pivot = static_cast<int>(std::ranges::max_element(result->states, size) - result->states.begin());
-  if (result->states.empty() || result->states[result->pivot] == 0) result.reset();
-  return result;
+  result.pivot = static_cast<int>(std::ranges::max_element(result.states, size) - result.states.begin());
+  if (result.states.empty() || result.states[result.pivot] == 0) return std::nullopt;
+  return std::move(result);
 }
 
 std::vector<std::pair<std::size_t, int>> statesThatFollow(const std::vector<const LinearForm*>& forms) {

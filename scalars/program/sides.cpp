@@ -76,36 +76,46 @@ double signOfRatio(const Surface& a, const Surface& b) {
   return a.node == b.node ? 1 : a.form && b.form ? signOfRatio(*a.form, *b.form) : 0;
 }
 
+/// What |u| or sign u is of: u, but for its sign and for factors in which no state is.
+struct BareArgument {
+  int u;
+  std::vector<int> factors;
+  bool isNegative = false;
+};
+
+BareArgument bareArgument(const Program& f, const std::vector<char>& moves, int u) {
+  BareArgument bare{u, {}};
+  for (;;) {
+    const Node& node = f.nodes()[bare.u];
+    const bool isProduct = node.op == Op::mul && (moves[node.a] == 0 || moves[node.b] == 0);
+    if (node.op != Op::neg && !isProduct) return bare;
+    bare.isNegative = bare.isNegative != (node.op == Op::neg);
+    if (isProduct) bare.factors.push_back(moves[node.a] == 0 ? node.a : node.b);
+    bare.u = isProduct && moves[node.a] == 0 ? node.b : node.a;
+  }
+}
+
 /// f with factors in which no state is taken off the arguments of all its nodes of this kind that move: |k u| = |k||u|,
 /// or sign(k u) = sign k sign u.
 Program withBareArguments(const Program& f, Op kind) {
   const std::vector<char> moves = ofStates(f);
+  std::vector<std::pair<std::size_t, BareArgument>> found;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    if (f.nodes()[i].op != kind || moves[i] == 0) continue;
+    BareArgument bare = bareArgument(f, moves, f.nodes()[i].a);
+    if (!bare.factors.empty()) found.emplace_back(i, std::move(bare));
+  }
+  if (found.empty()) return f;
   Recorder result(f.states(), f.parameters());
   std::vector<int> instead(f.nodes().size(), -1), outputs;
   const std::vector<int> plain = result.append(f);
   const auto of = [&](int node) { return kind == Op::abs ? result.abs(plain[node]) : result.sign(plain[node]); };
-  bool isNew = false;
-  for (std::size_t i = 0; i < instead.size(); ++i) {
-    if (f.nodes()[i].op != kind || moves[i] == 0) continue;
-    int u = f.nodes()[i].a, factor = -1;
-    bool isNegative = false;
-    for (;;) {
-      const Node& node = f.nodes()[u];
-      const bool isProduct = node.op == Op::mul && (moves[node.a] == 0 || moves[node.b] == 0);
-      if (node.op != Op::neg && !isProduct) break;
-      isNegative = isNegative != (node.op == Op::neg);
-      if (isProduct) {
-        const int more = of(moves[node.a] == 0 ? node.a : node.b);
-        factor = factor < 0 ? more : result.mul(factor, more);
-      }
-      u = isProduct && moves[node.a] == 0 ? node.b : node.a;
-    }
-    if (factor < 0) continue;
-    const int bare = result.mul(factor, of(u));
-    instead[i] = kind == Op::sign && isNegative ? result.neg(bare) : bare;
-    isNew = true;
+  for (const auto& [i, bare] : found) {
+    int factor = of(bare.factors.front());
+    for (std::size_t k = 1; k < bare.factors.size(); ++k) factor = result.mul(factor, of(bare.factors[k]));
+    const int node = result.mul(factor, of(bare.u));
+    instead[i] = kind == Op::sign && bare.isNegative ? result.neg(node) : node;
   }
-  if (!isNew) return f;
   const std::vector<int> here = result.append(f, {}, instead);
   for (const int output : f.outputNodes()) outputs.push_back(here[output]);
   return result.finish(outputs);
@@ -123,6 +133,7 @@ namespace {
 std::optional<Program> withKinksThatJump(const Program& f, const Program& g) {
   std::vector<Surface> surfaces;
   for (const int jump : jumpsOf(f)) surfaces.push_back(surfaceOf(f, bareArgumentOf(f, jump).node));
+  if (surfaces.empty()) return {};
   const std::vector<char> moves = ofStates(g);
   Recorder result(g.states(), g.parameters());
   std::vector<int> instead(g.nodes().size(), -1), outputs;
@@ -345,6 +356,7 @@ struct SharedSign {
 
 /// The signs of states in g that are signs of f's surfaces.
 std::vector<SharedSign> sharedSigns(const Program& f, const Program& g) {
+  if (jumpsOf(f).empty()) return {};
   Recorder both(f.states(), f.parameters());
   const std::vector<int> ofF = both.append(f), ofG = both.append(g);
   std::vector<std::pair<Surface, double>> surfaces;

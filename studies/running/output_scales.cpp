@@ -51,6 +51,9 @@ OutputScales scalesOf(const Run& run, const UncertainMotion& motion, const Ensem
   if (run.study.uncertain.empty()) return {};
   const Envelope first = ensemble.firstEnvelope();
   const Table& error = ensemble.error();
+  const auto isNone = [](double value) { return std::isnan(value); };
+  for (const std::vector<double>* bounds : {&first.lower.data, &first.upper.data})
+    if (std::ranges::any_of(*bounds, isNone)) return {};
   OutputScales scales(run.study.outputs.size());
   const std::vector<double> grains = grainsOf(run, motion);
   constexpr double telling = 100, hardly = 1000;
@@ -59,7 +62,6 @@ OutputScales scalesOf(const Run& run, const UncertainMotion& motion, const Ensem
     scale.isSteady = scale.vanishes = true;
     for (std::size_t t = 0; t < first.lower.times; ++t) {
       const double low = first.lower(t, o), high = first.upper(t, o), size = std::max(std::abs(low), std::abs(high));
-      if (std::isnan(low) || std::isnan(high)) return {};
       const double off = !error.empty() && std::isfinite(error(t, o)) ? telling * error(t, o) : 0;
       scale.size = std::max(scale.size, size);
       scale.span = std::max(scale.span, high - low);

@@ -197,5 +197,52 @@ TEST_F(TwoArms, OfHullsAreHeldApart) {
   EXPECT_LE(results.comparison.maximum, 1.2);  // where an edge, and then a face, is nearest
 }
 
+/// Four prisms that a swinging rod passes, each of which is never to come near it: tens of thousands of operations.
+std::string manyPairs() {
+  std::string text = R"(
+    [study]
+    analysis = "dynamics"
+    horizon = 0.8
+    output_step = 0.05
+    compare = ["interval", "stochastic", "fuzzy"]
+    [mechanism]
+    gravity = [0, 0, -9.81]
+    [mechanism.parameters]
+    one = "1 m"
+    one_angle = "20 deg"
+    )" + armText("left", "inertial", "\"y\"", "one_angle", "one", "box");
+  std::string outputs, requirements;
+  for (int i = 0; i < 4; ++i) {
+    const std::string number = std::to_string(i);
+    text += "[[mechanism.element]]\ntype = \"hull\"\nname = \"post" + number + "\"\nat = \"inertial\"\ncentre = [\"" +
+            number + "00 mm\", \"0." + number + "1 m\", \"-1.5 m\"]\npoints = [";
+    for (const char* corner : {"4, 0", "-2, 3", "-2, -3"})
+      for (const char* end : {"-10 cm", "10 cm"}) {
+        const std::string across = corner;
+        const std::size_t comma = across.find(',');
+        text += "[\"" + across.substr(0, comma) + " cm\", \"" + across.substr(comma + 2) + " cm\", \"" + end + "\"], ";
+      }
+    text += "]\n[[mechanism.element]]\ntype = \"separation\"\nname = \"gap" + number +
+            "\"\nfrom = \"left_rod\"\nto = \"post" + number + "\"\n";
+    outputs += "[[output]]\nquantity = \"gap" + number + ".distance\"\n";
+    requirements +=
+        "[[requirement]]\nname = \"apart " + number + "\"\nalways = \"gap" + number + ".distance > 1 cm\"\n";
+  }
+  return text + "[[uncertain]]\nquantity = \"one\"\ninterval = \"± 1 %\"\n" + outputs + requirements;
+}
+
+/// Whatever is at work when it is reached ends soon, and all is told that was found.
+TEST(ManyPairs, KeepToALimitOfTime) {
+  const Machine machine(readStudyText(manyPairs(), "s.toml"));
+  constexpr double limit = 5;
+  RunOptions options;
+  options.timeLimit = machine.cpu + limit;
+  const Results results = run(machine, options);
+  EXPECT_LT(results.cpu, machine.cpu + 1.1 * limit + 0.5);
+  EXPECT_EQ(results.requirements.size(), 4u);
+  for (const RequirementResult& each : results.requirements)
+    EXPECT_TRUE(each.word != Decision::open || !each.why.empty()) << each.name;
+}
+
 }  // namespace
 }  // namespace gamut

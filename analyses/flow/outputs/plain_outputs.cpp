@@ -1,9 +1,11 @@
-// One program an output where some may have no value, so that what another one lacks does not matter.
+// Node by node, so that what may have no value is known of each, and matters to none that does not need it.
 #include "analyses/flow/outputs/plain_outputs.hpp"
 
 #include <algorithm>
 #include <utility>
 
+#include "scalars/algebra/linear_system.hpp"
+#include "scalars/operations/all.hpp"
 #include "scalars/program/angles.hpp"
 #include "scalars/program/recorder.hpp"
 
@@ -90,65 +92,172 @@ Interval rangeOf(const Extreme& extreme, const Interval& a, const Interval& b) {
 
 }  // namespace
 
+NodeValues::NodeValues(std::shared_ptr<const Program> g)
+    : g_(std::move(g)), extremeOf_(g_->nodes().size(), -1), extremes_(extremesOf(*g_)) {
+  for (std::size_t k = 0; k < extremes_.size(); ++k) extremeOf_[extremes_[k].node] = static_cast<int>(k);
+  for (const Node& node : g_->nodes()) isOneSided_.push_back(static_cast<char>(isOneSided(domainOf(node.op))));
+  value_.resize(extremeOf_.size());
+  hasNone_.assign(extremeOf_.size(), 0);
+}
+
+/// By rising number, twins and all components of solutions among them.
+std::vector<int> NodeValues::neededBy(const std::vector<int>& nodes) const {
+  std::vector<char> isNeeded(g_->nodes().size(), 0);
+  std::vector<int> open, needed;
+  const auto need = [&](int node) {
+    if (std::exchange(isNeeded[node], char{1}) == 0) open.push_back(node);
+  };
+  std::ranges::for_each(nodes, need);
+  while (!open.empty()) {
+    const int node = open.back();
+    open.pop_back();
+    needed.push_back(node);
+    detail::forEachTwin(g_->table(), node, need);
+    detail::forEachOperand(g_->table(), node, need);
+  }
+  std::ranges::sort(needed);
+  return needed;
+}
+
+void NodeValues::evaluate(const std::vector<int>& nodes, const Interval& t, const std::vector<Interval>& states,
+                          const std::vector<Interval>& parameters) {
+  for (const int node : nodes) {
+    bool lacks = isOneSided_[node] != 0 && !(value_[g_->nodes()[node].a].lower() >= 0);
+    detail::forEachOperand(g_->table(), node, [&](int operand) { lacks = lacks || hasNone_[operand] != 0; });
+    if (const int k = extremeOf_[node]; k >= 0) {
+      const Extreme& extreme = extremes_[k];
+      value_[node] = rangeOf(extreme, value_[extreme.a], value_[extreme.b]);
+      lacks = lacks || isEmpty(value_[node]);
+    } else {
+      setValue(node, t, states, parameters);
+    }
+    hasNone_[node] = static_cast<char>(lacks);
+  }
+}
+
+/// Of a node that is no extreme; the first of twins, and of components, sets all.
+void NodeValues::setValue(int node, const Interval& t, const std::vector<Interval>& states,
+                          const std::vector<Interval>& parameters) {
+  const Node& n = g_->nodes()[node];
+  Interval& value = value_[node];
+  switch (n.op) {
+    case Op::state:
+      value = states[n.a];
+      break;
+    case Op::parameter:
+      value = parameters[n.a];
+      break;
+    case Op::time:
+      value = t;
+      break;
+    case Op::constant:
+      value = g_->constants()[n.a];
+      break;
+    case Op::add:
+      value = value_[n.a] + value_[n.b];
+      break;
+    case Op::sub:
+      value = value_[n.a] - value_[n.b];
+      break;
+    case Op::neg:
+      value = -value_[n.a];
+      break;
+    case Op::mul:
+      value = value_[n.a] * value_[n.b];
+      break;
+    case Op::sqr:
+      value = sqr(value_[n.a]);
+      break;
+    case Op::solution:
+      if (n.b == 0) solve(node);
+      break;
+    default:
+      if (!isTwin(n.op)) {
+        const Interval argument = value_[n.a];
+        Interval none, &second = hasTwin(n.op) ? value_[node + 1] : none;
+        withFunction(n.op, [&](auto f) { gamut::evaluate(f, argument, value, second); });
+      }
+  }
+}
+
+void NodeValues::solve(int first) {
+  const LinearSolution& solution = g_->solutions()[g_->nodes()[first].a];
+  const LinearMatrix& matrix = g_->matrices()[solution.matrix];
+  LinearSystem<Interval> system;
+  system.assign(matrix.kind, matrix.size, [&](int i, int j) { return value_[matrix.entry(i, j)]; });
+  std::vector<Interval> x;
+  for (const int r : solution.rightSide) x.push_back(value_[r]);
+  system.solve(x, solution.transposed);
+  std::ranges::copy(x, value_.begin() + first);
+}
+
 PlainOutputs::PlainOutputs(const Program& g)
-    : g_(g), hasAngles_(!halfAnglesOf(g).empty()), outputs_(g.outputNodes().size()) {
-  if (!hasAngles_ && extremesOf(g).empty() && argumentsOfRoots(g, g.outputNodes()).empty()) together_.emplace(g);
+    : g_(std::make_shared<const Program>(g)), outputs_(g.outputNodes().size()) {
+  const std::vector<int> angles = halfAnglesOf(g);
+  hasAngles_ = !angles.empty();
+  if (!hasAngles_) return;
+  const NodeValues values(g_);
+  for (std::size_t o = 0; o < outputs_.size(); ++o) {
+    const std::vector<int> needed = values.neededBy({g.outputNodes()[o]});
+    outputs_[o].hasAngles =
+        std::ranges::any_of(angles, [&](int angle) { return std::ranges::binary_search(needed, angle); });
+  }
 }
 
-PlainOutputs::Output& PlainOutputs::apart(int output) {
-  if (outputs_[output]) return *outputs_[output];
-  const Program own = Recorder(g_).finish({g_.outputNodes()[output]});
-  std::vector<int> given;
-  std::vector<Given> extremes;
-  const bool hasAngles = !halfAnglesOf(own).empty();  // these need what they are made of as a whole
-  for (const Extreme& extreme : hasAngles ? std::vector<Extreme>{} : extremesOf(own)) {
-    const Program both = withNodesGiven(own, given, {extreme.a, extreme.b});
-    extremes.push_back({Evaluator<Interval>(withArguments(both, both.outputNodes())), extreme});
-    given.push_back(extreme.node);
-  }
-  const Program rest = withNodesGiven(own, given, own.outputNodes());
-  Output& of = outputs_[output].emplace(withArguments(rest, rest.outputNodes()));
-  of.extremes = std::move(extremes);
-  const std::vector<int> angles = halfAnglesOf(rest);
-  if (angles.empty()) return of;
-  const Program atWorst = withNodesGiven(rest, angles, rest.outputNodes());
-  of.atWorst.emplace_back(withArguments(atWorst, atWorst.outputNodes()));
-  of.angles = angles.size();
-  return of;
+NodeValues& PlainOutputs::values() {
+  if (!values_) values_.emplace(g_);
+  return *values_;
 }
 
-Interval PlainOutputs::over(int output, const Interval& t, const std::vector<Interval>& states,
-                            const std::vector<Interval>& parameters) {
-  Output& of = apart(output);
-  std::vector<Interval> all = parameters;
-  for (Given& given : of.extremes) {
-    given.ofBoth.setParameters(all);
-    const std::vector<Interval> found = given.ofBoth(t, states);
-    const Interval range = areDefined(found, 2) ? rangeOf(given.extreme, found[0], found[1]) : Interval::empty();
-    if (isEmpty(range)) return Interval::entire();
-    all.push_back(range);
-  }
-  of.value.setParameters(all);
+/// Made where it is first asked for.
+PlainOutputs::Angles& PlainOutputs::anglesOf(int output) {
+  std::optional<Angles>& of = outputs_[output].angles;
+  if (of) return *of;
+  const Program own = Recorder(*g_).finish({g_->outputNodes()[output]});
+  of.emplace(Evaluator<Interval>(withArguments(own, own.outputNodes())));
+  const std::vector<int> angles = halfAnglesOf(own);
+  const Program atWorst = withNodesGiven(own, angles, own.outputNodes());
+  of->atWorst.emplace_back(withArguments(atWorst, atWorst.outputNodes()));
+  of->count = angles.size();
+  return *of;
+}
+
+Interval PlainOutputs::overAngles(int output, const Interval& t, const std::vector<Interval>& states,
+                                  const std::vector<Interval>& parameters) {
+  Angles& of = anglesOf(output);
+  of.value.setParameters(parameters);
   Interval value = valueOf(of.value(t, states));
-  if (isEmpty(value) && of.angles > 0) {
-    all.resize(all.size() + of.angles, hull(-halfPi(), halfPi()));
+  if (isEmpty(value)) {
+    std::vector<Interval> all = parameters;
+    all.resize(all.size() + of.count, hull(-halfPi(), halfPi()));
     of.atWorst[0].setParameters(all);
     value = valueOf(of.atWorst[0](t, states));
   }
   return isEmpty(value) ? Interval::entire() : value;
 }
 
+Interval PlainOutputs::over(int output, const Interval& t, const std::vector<Interval>& states,
+                            const std::vector<Interval>& parameters) {
+  Output& of = outputs_[output];
+  if (of.hasAngles) return overAngles(output, t, states, parameters);
+  if (of.needed.empty()) of.needed = values().neededBy({g_->outputNodes()[output]});
+  values().evaluate(of.needed, t, states, parameters);
+  return values().known(g_->outputNodes()[output]);
+}
+
 std::vector<Interval> PlainOutputs::over(double t, const Box& box) {
-  const auto states = box.begin() + g_.states();
+  const auto states = box.begin() + g_->states();
   const std::vector<Interval> x(box.begin(), states), p(states, box.end());
-  std::vector<Interval> found;
-  if (together_) {
-    together_->setParameters(p);
-    found = (*together_)(Interval(t), x);
-    for (Interval& value : found) value = isEmpty(value) ? Interval::entire() : value;
-  } else {
-    for (int o = 0; o < static_cast<int>(outputs_.size()); ++o) found.push_back(over(o, Interval(t), x, p));
+  if (together_.empty()) {
+    std::vector<int> plain;
+    for (std::size_t o = 0; o < outputs_.size(); ++o)
+      if (!outputs_[o].hasAngles) plain.push_back(g_->outputNodes()[o]);
+    together_ = values().neededBy(plain);
   }
+  values().evaluate(together_, Interval(t), x, p);
+  std::vector<Interval> found;
+  for (int o = 0; o < static_cast<int>(outputs_.size()); ++o)
+    found.push_back(outputs_[o].hasAngles ? overAngles(o, Interval(t), x, p) : values().known(g_->outputNodes()[o]));
   return found;
 }
 

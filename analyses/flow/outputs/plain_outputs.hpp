@@ -2,7 +2,9 @@
 // a kink.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scalars/evaluation/evaluator.hpp"
@@ -17,6 +19,34 @@ bool dependsOnTime(const Program& program);
 
 /// What these nodes of g, `open`, take roots and logarithms of, nodes too.
 std::vector<int> argumentsOfRoots(const Program& g, std::vector<int> open);
+
+/// The nodes of a program over intervals. The greater and the lesser of two numbers are as exact as both.
+class NodeValues {
+ public:
+  explicit NodeValues(std::shared_ptr<const Program> g);
+
+  /// All that these nodes are computed from, they themselves included.
+  std::vector<int> neededBy(const std::vector<int>& nodes) const;
+  /// Of such nodes, all that they need among them.
+  void evaluate(const std::vector<int>& nodes, const Interval& t, const std::vector<Interval>& states,
+                const std::vector<Interval>& parameters);
+  /// The whole line where it may have no value somewhere, as the root or logarithm of a negative number has none.
+  Interval known(int node) const {
+    return hasNone_[node] != 0 || isEmpty(value_[node]) ? Interval::entire() : value_[node];
+  }
+
+ private:
+  void setValue(int node, const Interval& t, const std::vector<Interval>& states,
+                const std::vector<Interval>& parameters);
+  void solve(int first);
+
+  std::shared_ptr<const Program> g_;
+  std::vector<char> isOneSided_;  // of each node: it takes a root or a logarithm
+  std::vector<int> extremeOf_;    // of each node; -1: it is none
+  std::vector<Extreme> extremes_;
+  std::vector<Interval> value_;
+  std::vector<char> hasNone_;
+};
 
 class PlainOutputs {
  public:
@@ -34,26 +64,29 @@ class PlainOutputs {
   bool hasAngles() const { return hasAngles_; }
 
  private:
-  /// A greater or lesser of two numbers, given as a further parameter to all that comes behind it.
-  struct Given {
-    Evaluator<Interval> ofBoth;  // and all that they take a root or logarithm of
-    Extreme extreme;
+  /// Of an output of angles, which are known as wholes only.
+  struct Angles {
+    explicit Angles(Evaluator<Interval> whole) : value(std::move(whole)) {}
+    Evaluator<Interval> value;                 // and all that it takes a root or logarithm of
+    std::vector<Evaluator<Interval>> atWorst;  // likewise, with halves of angles as further parameters
+    std::size_t count = 0;
   };
   struct Output {
-    explicit Output(const Program& whole) : value(whole) {}
-    std::vector<Given> extremes;
-    Evaluator<Interval> value;                 // and all that it takes a root or logarithm of
-    std::vector<Evaluator<Interval>> atWorst;  // likewise, with halves of angles as further parameters; or none
-    std::size_t angles = 0;
+    bool hasAngles = false;
+    std::optional<Angles> angles;
+    std::vector<int> needed;  // nodes; none: not asked for yet
   };
 
-  /// Of an output, made where it is first asked for.
-  Output& apart(int output);
+  NodeValues& values();
+  Angles& anglesOf(int output);
+  Interval overAngles(int output, const Interval& t, const std::vector<Interval>& states,
+                      const std::vector<Interval>& parameters);
 
-  Program g_;
-  bool hasAngles_;
-  std::optional<Evaluator<Interval>> together_;  // of all outputs, where none takes a root, an extreme or an angle
-  std::vector<std::optional<Output>> outputs_;
+  std::shared_ptr<const Program> g_;
+  bool hasAngles_ = false;
+  std::optional<NodeValues> values_;  // of g_, where it is first asked for
+  std::vector<Output> outputs_;
+  std::vector<int> together_;  // nodes of all outputs without angles
 };
 
 }  // namespace gamut

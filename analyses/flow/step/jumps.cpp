@@ -78,6 +78,7 @@ Program FlowJumps::withoutSignsAtRest(const Program& g, const std::vector<char>&
 }
 
 Program FlowJumps::outputsGiven(const Program& g, const std::vector<char>& held) const {
+  if (jumpsOf(f).empty()) return g;
   const Program bare = withBareKinks(g);  // as f is, so that its surfaces are found again
   return held.empty() ? withSignsGiven(f, bare)
                       : outputsWithOpenSignsGiven(f, withoutSignsAtRest(bare, held), sidesOf(held));

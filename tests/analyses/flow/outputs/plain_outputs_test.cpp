@@ -46,5 +46,34 @@ TEST(PlainOutputs, OfExtremesAreThoseOfTheExtreme) {
   EXPECT_TRUE(isEqual(outputs.over(5, 0.0, {Interval(0.0), Interval(-1.0, 1.0)}, p), Interval::entire()));
 }
 
+/// The least of very many numbers, as of distances of hulls, some of which have no value; also where it is moved.
+TEST(PlainOutputs, OfThousandsOfExtremesAreThoseOfTheExtreme) {
+  constexpr int many = 3000;
+  std::vector<PlainOutputs> all;
+  all.emplace_back(record(2, 1, 3, [](auto, const auto& x, const auto& p, auto& y) {
+    Recorded least = x[0] + 10.0, greatest = x[0] - 10.0;
+    for (int i = 0; i < many; ++i) {
+      const Recorded other = x[1] * (1.0 + i) + p[0];
+      least = min(least, other);
+      greatest = max(greatest, -other);
+    }
+    y[0] = least;
+    y[1] = greatest;
+    y[2] = least + sqrt(x[0]);
+  }));
+  all.emplace_back(all.front());  // a copy knows what it needs by itself
+  all.erase(all.begin());
+  PlainOutputs outputs = std::move(all.front());
+  const Box box{Interval(-1.0, 1.0), Interval(0.5, 3.0), Interval(2.0)};
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::vector<Interval> found = outputs.over(0.0, box);
+    EXPECT_TRUE(isEqual(found[0], Interval(2.5, 5.0)));
+    EXPECT_TRUE(isEqual(found[1], Interval(-5.0, -2.5)));
+    EXPECT_TRUE(isEntire(found[2]));
+    for (int o = 0; o < 3; ++o)
+      EXPECT_TRUE(isEqual(outputs.over(o, Interval(0.0), {box[0], box[1]}, {box[2]}), found[o])) << o;
+  }
+}
+
 }  // namespace
 }  // namespace gamut
