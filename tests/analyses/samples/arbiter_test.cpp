@@ -73,7 +73,7 @@ Wide wideOf(const BoundedNumber<Real>& of, bool isOff) {
 
 /// Against 168 bits, whose own roundings are nothing beside those of 128.
 template <class Real>
-void expectBounds(double a, double b, double c, const char* kind) {
+void expectRoundingsHeld(double a, double b, double c, const char* kind) {
   const Program program = roundedOutputs();
   Evaluator<BoundedNumber<Real>> bounded(program);
   bounded.setParameters(std::vector<BoundedNumber<Real>>{a, b, c});
@@ -95,7 +95,7 @@ TEST(BoundedNumber, HoldsWhatRoundingsDo) {
   std::uniform_real_distribution<> any(0.1, 1.4);
   for (int i = 0; i < 300; ++i) {
     const double a = any(engine), b = any(engine), c = any(engine);
-    expectBounds<Precise>(a, b, c, "128 bits");
+    expectRoundingsHeld<Precise>(a, b, c, "128 bits");
   }
 }
 
