@@ -39,6 +39,25 @@ class Seen final : public Onlooker {
     std::string coordinate;
     SeenSpring is;
   };
+  struct Rubbing {
+    std::string coordinate;
+    SeenFriction is;
+  };
+  struct Gearing {
+    std::string leader, follower;
+    Expression ratio;
+  };
+  struct Plane {
+    FixedPoint at;
+    Axis normal;
+    FixedPoint over;
+    Expression radius;
+  };
+  struct Profile {
+    std::string coordinate;
+    Expression speed;
+    Axis along;
+  };
   struct Joint {
     FixedPoint at;
     int turns, slides;
@@ -58,6 +77,18 @@ class Seen final : public Onlooker {
     jointSprings.push_back({coordinate, spring});
   }
   void drawsMotor(const std::string& coordinate) override { motors.push_back(coordinate); }
+  void drawsFriction(const std::string& coordinate, const SeenFriction& is) override {
+    frictions.push_back({coordinate, is});
+  }
+  void drawsGear(const std::string& leader, const std::string& follower, const Expression& ratio) override {
+    gears.push_back({leader, follower, ratio});
+  }
+  void drawsPlane(const FixedPoint& at, const Axis& normal, const FixedPoint& over, const Expression& radius) override {
+    planes.push_back({at, normal, over, radius});
+  }
+  void drawsProfile(const std::string& coordinate, const Expression& speed, const Axis& along) override {
+    profiles.push_back({coordinate, speed, along});
+  }
   void drawsWheel(const Axis& axle, const Expression& itsRadius) override { wheel = {axle, itsRadius}; }
   void drawsLink(const FixedPoint& from, const FixedPoint& to) override { links.push_back({from, to}); }
   void drawsJoint(const FixedPoint& at, int itsTurns, int itsSlides) override {
@@ -68,8 +99,9 @@ class Seen final : public Onlooker {
   }
   void drawsShape(const SeenShape& what) override { shape = what; }
   void drawsPlay(const Expression& clearance) override { play = clearance; }
-  void coordinate(const Word&, Expression&, Coordinate kind, const Word&, Expression&) override {
+  void coordinate(const Word& word, Expression&, Coordinate kind, const Word&, Expression&) override {
     ++(kind == Coordinate::angle ? turns : slides);
+    position = word.key;
   }
   void speed(const Word& word, Expression&) override { ++(word.unit == "rad/s" ? turns : slides); }
 
@@ -79,12 +111,17 @@ class Seen final : public Onlooker {
   std::vector<Spring> springs;
   std::vector<JointSpring> jointSprings;
   std::vector<std::string> motors;  // coordinates
+  std::vector<Rubbing> frictions;
+  std::vector<Gearing> gears;
+  std::vector<Plane> planes;
+  std::vector<Profile> profiles;
   std::optional<std::pair<Axis, Expression>> wheel;
   std::vector<Joint> joints;
   std::vector<JointAxis> axes;
   std::optional<SeenShape> shape;
   std::optional<Expression> play;  // its clearance
   int turns = 0, slides = 0;
+  std::string position;  // the last coordinate
 };
 
 class Finder {
@@ -104,6 +141,7 @@ class Finder {
     for (const auto& [from, to] : seen.moved) {
       const bool isJoint = seen.turns + seen.slides > 0;
       if (!isJoint && std::ranges::count(ground_, from) > 0) ground_.push_back(to);
+      carrier_[to] = isJoint ? to : carrierOf(from);
       addAxes(name, seen);
       if (seen.shape) {
         addShape(element, *seen.shape);
@@ -113,6 +151,9 @@ class Finder {
       skeleton.parts.push_back({name, element.type(), seen.play ? play : (isJoint ? joint : rigid), first, second,
                                 seen.turns, seen.slides, 0.0, seen.play.value_or(0.0)});
       if (seen.turns == 1 && seen.slides == 0 && seen.axes.size() == 1) turning_.emplace(to, seen.axes.front().axis);
+      if (seen.turns + seen.slides == 1 && seen.axes.size() == 1)
+        joints_.push_back({skeleton.parts.size() - 1, seen.axes.front().frame, to, seen.axes.front().axis,
+                           name + "." + seen.position});
       if (seen.wheel) addWheel(element, to, second, seen.wheel->first, seen.wheel->second);
     }
     for (const Seen::Body& body : seen.bodies) addBody(element, body);
@@ -126,6 +167,12 @@ class Finder {
       if (!isNothing(is.damping)) addAtJoint(element, damper, coordinate);
     }
     for (const std::string& coordinate : seen.motors) addAtJoint(element, motor, coordinate);
+    for (const auto& [coordinate, is] : seen.frictions)
+      if (!isNothing(is.dry) || !isNothing(is.viscous)) addAtJoint(element, friction, coordinate);
+    for (const Seen::Gearing& gearing : seen.gears) addGear(element, gearing);
+    for (const Seen::Plane& contact : seen.planes) addPlane(element, contact);
+    for (const Seen::Profile& road : seen.profiles)
+      if (!isNothing(road.speed)) addProfile(element, road);
     for (const auto& [at, turns, slides] : seen.joints) {
       if (turns < 3) addAxes(name, seen);
       const std::size_t place = pointOf(name + ".at", at);
@@ -144,12 +191,36 @@ class Finder {
     skeleton.parts.push_back({element.name(), element.type(), kind, first, second, 0, 0, 0.0});
   }
 
-  /// Of a joint with one freedom: where there are several, one would lie upon the other.
-  void addAtJoint(const Described& element, Skeleton::Kind kind, const std::string& coordinate) {
+  /// A joint of one freedom, along or about one axis.
+  struct SimpleJoint {
+    std::size_t part;
+    std::string from, to;  // frames
+    Axis axis;
+    std::string position;  // the coordinate
+  };
+
+  const Skeleton::Part* jointOf(const std::string& coordinate) const {
     const auto joint = std::ranges::find_if(skeleton.parts, [&](const Skeleton::Part& part) {
       return part.kind == Skeleton::Kind::joint && (part.name == coordinate || coordinate.starts_with(part.name + "."));
     });
-    if (joint == skeleton.parts.end() || joint->turns + joint->slides != 1) return;
+    return joint == skeleton.parts.end() ? nullptr : &*joint;
+  }
+  const SimpleJoint* simpleJointOf(const std::string& coordinate) const {
+    const Skeleton::Part* part = jointOf(coordinate);
+    const auto joint =
+        std::ranges::find_if(joints_, [&](const SimpleJoint& one) { return &skeleton.parts[one.part] == part; });
+    return joint == joints_.end() ? nullptr : &*joint;
+  }
+  /// What a frame is fixed to, by links alone.
+  std::string carrierOf(const std::string& frame) const {
+    const auto found = carrier_.find(frame);
+    return found == carrier_.end() ? frame : found->second;
+  }
+
+  /// Of a joint with one freedom: where there are several, one would lie upon the other.
+  void addAtJoint(const Described& element, Skeleton::Kind kind, const std::string& coordinate) {
+    const Skeleton::Part* joint = jointOf(coordinate);
+    if (joint == nullptr || joint->turns + joint->slides != 1) return;
     skeleton.parts.push_back(
         {element.name(), element.type(), kind, joint->from, joint->to, joint->turns, joint->slides, 0.0});
   }
@@ -168,12 +239,80 @@ class Finder {
 
   void addWheel(const Described& element, const std::string& frame, std::size_t centre, const Axis& axle,
                 const Expression& radius) {
-    const std::array next{axisY, axisZ, axisX};
     const std::string& name = element.name();
+    addSpokes(name, frame, axle);
+    skeleton.parts.push_back({name, element.type(), Skeleton::Kind::wheel, centre, centre, 0, 0, 0.0, radius});
+  }
+
+  /// Wheels whose radii have the ratio, where both joints turn and one body carries them; and one of a known radius
+  /// where a joint turns and the other slides.
+  void addGear(const Described& element, const Seen::Gearing& gearing) {
+    const Skeleton::Part *first = jointOf(gearing.leader), *second = jointOf(gearing.follower);
+    if (first == nullptr || second == nullptr) return;
+    Skeleton::Part gear{element.name(), element.type(), Skeleton::Kind::gear, first->to, second->to, 0, 0, 0.0};
+    gear.ratio = gearing.ratio;
+    const SimpleJoint *leader = simpleJointOf(gearing.leader), *follower = simpleJointOf(gearing.follower);
+    const auto isSeen = [&](const SimpleJoint* joint) {
+      return joint != nullptr && (skeleton.parts[joint->part].turns == 0 || joint->axis.isAligned());
+    };
+    if (isSeen(leader) && isSeen(follower) && !contains(mechanism_.rangeOf(gearing.ratio), 0)) {
+      gear.turns = first->turns + second->turns;
+      if (gear.turns == 1) gear.radius = first->turns == 1 ? gearing.ratio : Expression(1.0) / gearing.ratio;
+      if (gear.turns == 1 && first->turns == 1) {
+        std::swap(leader, follower);
+        std::swap(gear.from, gear.to);
+      }
+      if (gear.turns == 1 || (gear.turns == 2 && carrierOf(leader->from) == carrierOf(follower->from)))
+        for (const SimpleJoint* joint : {leader, follower}) addDirections(element.name(), *joint);
+    }
+    skeleton.parts.push_back(gear);
+  }
+  /// Of the part that comes next.
+  void addDirections(const std::string& name, const SimpleJoint& joint) {
+    const std::string which = name + "." + skeleton.parts[joint.part].name;
+    if (skeleton.parts[joint.part].turns == 1)
+      addSpokes(which, joint.to, joint.axis);
+    else
+      skeleton.axes.push_back({which + ".axis", skeleton.parts.size(), joint.from, joint.axis});
+  }
+  void addSpokes(const std::string& name, const std::string& frame, const Axis& axle) {
+    const std::array next{axisY, axisZ, axisX};
     skeleton.axes.push_back({name + ".axle", skeleton.parts.size(), frame, axle});
     skeleton.axes.push_back(
         {name + ".spoke", skeleton.parts.size(), frame, next[static_cast<std::size_t>(axle.index())]});
-    skeleton.parts.push_back({name, element.type(), Skeleton::Kind::wheel, centre, centre, 0, 0, 0.0, radius});
+  }
+
+  void addPlane(const Described& element, const Seen::Plane& contact) {
+    const std::string& name = element.name();
+    const auto isAtOrigin = [&](const FixedPoint& point) {
+      return std::ranges::all_of(point.place, [&](const Expression& x) { return isNothing(x); });
+    };
+    const auto placed = [&](const FixedPoint& point, const char* key) {
+      return isAtOrigin(point) ? pointOf(point.frame) : pointOf(name + key, point);
+    };
+    const std::size_t at = placed(contact.at, ".from_point"), over = placed(contact.over, ".to_point");
+    skeleton.axes.push_back({name + ".normal", skeleton.parts.size(), contact.at.frame, contact.normal});
+    skeleton.parts.push_back({name, element.type(), Skeleton::Kind::plane, at, over, 0, 0, 0.0});
+    if (!isNothing(contact.radius))
+      skeleton.parts.push_back({name, element.type(), Skeleton::Kind::shape, over, over, 0, 0, 0.0, contact.radius});
+  }
+
+  static bool isAlong(const Axis& one, const Axis& other) {
+    const std::array<double, 3> a = one.direction(), b = other.direction();
+    return a[1] * b[2] == a[2] * b[1] && a[2] * b[0] == a[0] * b[2] && a[0] * b[1] == a[1] * b[0];
+  }
+
+  /// Of a joint that slides across the way ahead.
+  void addProfile(const Described& element, const Seen::Profile& road) {
+    const SimpleJoint* joint = simpleJointOf(road.coordinate);
+    if (joint == nullptr || skeleton.parts[joint->part].slides != 1 || isAlong(joint->axis, road.along)) return;
+    const Skeleton::Part& slide = skeleton.parts[joint->part];
+    Skeleton::Part profile{element.name(), element.type(), Skeleton::Kind::profile, slide.from, slide.to, 0, 0, 0.0};
+    profile.speed = road.speed;
+    profile.height = joint->position;
+    skeleton.axes.push_back({element.name() + ".up", skeleton.parts.size(), joint->from, joint->axis});
+    skeleton.axes.push_back({element.name() + ".along", skeleton.parts.size(), joint->from, road.along});
+    skeleton.parts.push_back(profile);
   }
 
   /// Of the part that comes next.
@@ -235,6 +374,8 @@ class Finder {
   const Mechanism& mechanism_;
   std::vector<std::string> ground_{Mechanism::inertialFrame};  // frames
   std::map<std::string, Axis> turning_;                        // frames, about what
+  std::map<std::string, std::string> carrier_;                 // of frames: the outermost that they are fixed to
+  std::vector<SimpleJoint> joints_;
 };
 
 /// x, y, z of every vector that `vectorOf` makes of what is in the list.

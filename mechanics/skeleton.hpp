@@ -32,7 +32,12 @@ struct Skeleton {
     play,    ///< `to` lies off `from` within the clearance `radius`
     damper,  ///< a load between two points
     wheel,   ///< turns about `to`; its first axis is the axle, its second a spoke
-    motor    ///< at a joint
+    motor,   ///< at a joint
+    friction,
+    gear,    ///< between two joints, each with its axis and, if it turns, a spoke, the one that slides first; without
+             ///< any where wheels would not tell what it does
+    plane,   ///< through `from`, across its axis, which `to` moves over
+    profile  ///< beneath `to`, whose height above `from` it is; its first axis is up, its second the way ahead
   };
   struct Part {
     std::string name, type;  ///< as in the study
@@ -40,13 +45,16 @@ struct Skeleton {
     std::size_t from = 0, to = 0;  ///< points
     int turns = 0, slides = 0;     ///< of a joint, or of a load at one: how many speeds turn [rad/s] and slide [m/s]
     Expression mass = 0.0;         ///< kg
-    Expression radius = 0.0;       ///< m
+    Expression radius = 0.0;       ///< m; of a gear between what turns and what slides, of its wheel
+    Expression ratio = 0.0;        ///< of a gear: by how much the joint that follows moves by the other
+    Expression speed = 0.0;        ///< at which the machine goes over a profile [m/s]
+    std::string height = {};       ///< of a profile: the quantity
   };
-  /// A direction that belongs to a joint or a wheel.
+  /// A direction that belongs to a part.
   struct JointAxis {
-    std::string name;      ///< "hinge.axis"
-    std::size_t part = 0;  ///< the joint or the wheel
-    std::string frame;     ///< in which the direction is fixed
+    std::string name;  ///< "hinge.axis"
+    std::size_t part = 0;
+    std::string frame;  ///< in which the direction is fixed
     Axis axis = axisX;
   };
 

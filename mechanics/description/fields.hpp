@@ -106,6 +106,9 @@ struct SeenShape {
 struct SeenSpring {
   Expression stiffness, damping;
 };
+struct SeenFriction {
+  Expression dry, viscous;
+};
 
 class Fields {
  public:
@@ -132,6 +135,18 @@ class Fields {
   /// The same at a joint, or a motor; `coordinate`: as coordinateOf has it.
   virtual void drawsJointSpring(const std::string& /*coordinate*/, const SeenSpring& /*spring*/) {}
   virtual void drawsMotor(const std::string& /*coordinate*/) {}
+  /// Dry and viscous friction at a joint: what is exactly 0 is not seen.
+  virtual void drawsFriction(const std::string& /*coordinate*/, const SeenFriction& /*friction*/) {}
+  /// A gear between two joints: `follower` moves `ratio` times as `leader`; both as coordinateOf has it.
+  virtual void drawsGear(const std::string& /*leader*/, const std::string& /*follower*/, const Expression& /*ratio*/) {}
+  /// A plane through a point, and what touches it: a sphere about another point, of radius 0 where it is seen as
+  /// something else.
+  virtual void drawsPlane(const FixedPoint& /*plane*/, const Axis& /*normal*/, const FixedPoint& /*over*/,
+                          const Expression& /*radius*/) {}
+  /// The joint as the height of a profile, such as a road, over which the machine goes at this speed [m/s] along a
+  /// direction of the frame that carries the joint: what the joint is at a later time lies ahead. A speed of exactly 0
+  /// shows none.
+  virtual void drawsProfile(const std::string& /*coordinate*/, const Expression& /*speed*/, const Axis& /*along*/) {}
   /// The frame that it moves as a wheel about this axis [m].
   virtual void drawsWheel(const Axis& /*axle*/, const Expression& /*radius*/) {}
   /// As rigid between these points, or as a joint at one of them, of so many freedoms, about or along its jointAxis.

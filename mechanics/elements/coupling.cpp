@@ -13,6 +13,7 @@ void Coupling::describe(Fields& f) {
   f.number({"ratio", kind == leader ? "1" : perLeader, "1 unless given; rad/m or m/rad where one turns, one slides"},
            ratio);
   f.number({"offset", unitOf(kind), "where it is when the other is at 0"}, offset);
+  f.drawsGear(to, joint, ratio);
 }
 
 template <class S>

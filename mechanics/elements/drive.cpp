@@ -30,6 +30,20 @@ class PrescribedMotion final : public Load<S> {
   TimeFunction<S> motion_;
 };
 
+/// Of a motion that slides.
+void describeProfile(Fields& f, const std::string& joint, DrivenProfile& profile) {
+  f.number(
+      {"profile_speed", "m/s",
+       "only where the joint slides: its motion is the height of a profile, such as a road, over which the machine "
+       "goes at this speed, and which its picture shows; no motion depends on that. 0, none, unless given"},
+      profile.speed);
+  f.axis({"along", "",
+          "in which the machine goes over the profile, in the frame that carries the joint; `\"x\"` "
+          "unless given"},
+         profile.along);
+  f.drawsProfile(joint, profile.speed, profile.along);
+}
+
 void describeNeeds(Fields& f, Coordinate kind) {
   f.measureSolved({"force", forceUnitOf(kind), "that it needs, in the direction in which the coordinate grows"});
   f.measureSolved({"power", "W", "that it brings in"});
@@ -49,6 +63,7 @@ void addDrive(Assembler<S>& a, const std::string& joint, TimeFunction<S> motion)
 void Drive::describe(Fields& f) {
   const Coordinate kind = f.drivenCoordinate({"joint", "", "the joint, or one of its coordinates"}, joint);
   f.timeFunction({"position", unitOf(kind), "at time `t`", true}, position);
+  describeProfile(f, joint, profile);
   describeNeeds(f, kind);
 }
 
@@ -63,6 +78,7 @@ void TableDrive::describe(Fields& f) {
       {"file", "", "beside the study; its first row names the columns, its first column is time in s", true},
       {"column", unitOf(kind), "that holds the positions; a unit may follow its name in the file: `hip [deg]`", true},
       kind, table);
+  describeProfile(f, joint, profile);
   describeNeeds(f, kind);
 }
 

@@ -5,6 +5,12 @@
 
 namespace gamut {
 
+/// A motion that is the height of a profile, such as a road, over which the machine goes.
+struct DrivenProfile {
+  Expression speed = 0.0;  ///< m/s; 0: the motion is none
+  Axis along = axisX;      ///< in the frame that carries the joint
+};
+
 struct Drive {
   static constexpr const char* type = "drive";
   static constexpr int order = 260;  ///< in the documentation
@@ -13,6 +19,7 @@ struct Drive {
 
   std::string name, joint;
   Expression position = 0.0;  ///< rad or m
+  DrivenProfile profile = {};
 
   void describe(Fields& f);
   template <class S>
@@ -28,6 +35,7 @@ struct TableDrive {
 
   std::string name, joint;
   TimeTable table = {};  ///< rad or m
+  DrivenProfile profile = {};
 
   void describe(Fields& f);
   template <class S>

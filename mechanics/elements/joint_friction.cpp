@@ -11,6 +11,7 @@ Coordinate describeFriction(Fields& f, std::string& joint, Expression& coulomb, 
   const std::string force = forceUnitOf(kind);
   f.number({"coulomb", force, "against the motion, whatever its speed", true}, coulomb);
   f.number({"viscous", force + " s/" + unitOf(kind), "against the motion, by its speed"}, viscous);
+  f.drawsFriction(joint, {coulomb, viscous});
   return kind;
 }
 

@@ -195,6 +195,7 @@ void PlaneContact::describe(Fields& f) {
             "over which it is smoothed: at it, 71 % of the friction are there, at three times it 95 %, at ten times "
             "99.5 %"},
            slipRate);
+  f.drawsPlane({from, fromPoint}, normal, {to, toPoint}, radius);
   f.measure({"gap", "m", "between sphere and plane; below 0 where they touch"});
   f.measure({"normal_force", "N", "that pushes them apart"});
   f.measure({"friction_force", "N", "its size"});

@@ -42,6 +42,7 @@ void RollingBall::describe(Fields& f) {
       {"orientation", "rad", "at the start: " + orientationForms}, orientation,
       {"rate", "rad/s", "`[x, y, z]` at the start: the angular velocity against `from`, in the axes of `from`"}, rate);
   describeTouching(f);
+  f.drawsPlane({from}, axisZ, {to}, radius);
   f.measureSolved({"friction.x", "N", "of the plane on the ball, in the axes of `from`"});
   f.measureSolved({"friction.y", "N", "likewise"});
 }

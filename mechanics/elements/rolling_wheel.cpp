@@ -73,6 +73,7 @@ void RollingWheel::describe(Fields& f) {
   describePlace(f, "where it touches the plane", x, y);
   describeTouching(f);
   f.drawsWheel(axisY, radius);
+  f.drawsPlane({from}, axisZ, {to}, 0.0);
   f.measureSolved({"longitudinal_force", "N", "of the plane, in the direction in which the wheel rolls"});
   f.measureSolved({"lateral_force", "N", "of the plane, to the left of it"});
 }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string_view>
 
+#include "reports/drawing/gears.hpp"
 #include "reports/words.hpp"
 #include "studies/told.hpp"
 
@@ -51,13 +53,16 @@ class Builder {
     addGround();
     for (const PartInfo& part : m_.parts) addShape(part);
     for (std::size_t i = 0; i < m_.parts.size(); ++i) addWheel(i);
+    addRoads();
+    for (std::size_t i = 0; i < m_.parts.size(); ++i) addPlane(i);
+    for (std::size_t i = 0; i < m_.parts.size(); ++i) addGear(i);
     for (const PartInfo& part : m_.parts) addLine(part);
     for (const PartInfo& part : m_.parts) addLoad(part);
     for (const PartInfo& part : m_.parts) addPlay(part);
     for (const PartInfo& part : m_.parts)
       if (part.kind == PartKind::mass) addMass(part);
     for (std::size_t i = 0; i < m_.parts.size(); ++i) addJoint(i);
-    for (const PartInfo& part : m_.parts) addSign(part);
+    for (std::size_t i = 0; i < m_.parts.size(); ++i) addSign(i);
     if (isEnclosed(m_)) add(Form::now, 0, 0, "now", classOf("now"));  // masses are larger than most enclosures
     if (numberOf(PartKind::mass) <= mostNames) addNames();
     for (std::size_t i = 0; i < std::min<std::size_t>(3, m_.directions.size()); ++i) {
@@ -128,7 +133,8 @@ class Builder {
   void addGround() {
     std::vector<char> isHeld(m_.points.size(), 0);
     for (const PartInfo& part : m_.parts)
-      if ((part.kind == PartKind::joint && part.turns + part.slides < 6) || part.kind == PartKind::spring)
+      if ((part.kind == PartKind::joint && part.turns + part.slides < 6 && !isGround(part)) ||
+          part.kind == PartKind::spring)
         for (const std::uint64_t point : {part.from, part.to})
           if (m_.points[point].isGround) isHeld[footOf(point)] = 1;
     for (std::size_t k = 0; k < m_.points.size(); ++k)
@@ -137,6 +143,78 @@ class Builder {
             titleOf(m_.points[k].name + ": fixed") +
                 "<path class=\"hatch\" d=\"M-15 17l5 -6M-9 17l5 -6M-3 17l5 -6M3 17l5 -6M9 17l5 -6\"/>"
                 "<path d=\"M0 0L-9 11H9ZM-15 11H15\"/>");
+  }
+
+  /// A joint that is seen as the road or the plane beneath what it moves.
+  bool isGround(const PartInfo& joint) const {
+    return std::ranges::any_of(m_.parts, [&](const PartInfo& part) {
+      return (part.kind == PartKind::profile && part.from == joint.from && part.to == joint.to) ||
+             (part.kind == PartKind::plane && part.name == joint.name);
+    });
+  }
+
+  std::size_t axisOf(std::size_t part) const {
+    return static_cast<std::size_t>(std::ranges::find(m_.axes, part, &AxisInfo::part) - m_.axes.begin());
+  }
+
+  void addPlane(std::size_t i) {
+    constexpr double half = 60;
+    const PartInfo& part = m_.parts[i];
+    const std::size_t normal = axisOf(i);
+    if (part.kind != PartKind::plane || normal >= m_.axes.size()) return;
+    add(Form::plane, part.from, part.to, "", classOf("road"), titleOf(part), half);
+    s_.shapes.back().axis = normal;
+  }
+
+  /// Each as far as halfway to the next.
+  void addRoads() {
+    for (std::size_t k = 0; k < m_.profiles.size(); ++k) {
+      const ProfileInfo& road = m_.profiles[k];
+      const PartInfo& part = m_.parts[road.part];
+      const std::size_t up = axisOf(road.part);
+      if (up + 1 >= m_.axes.size()) continue;
+      s_.roads.push_back(wholes(seenHeights(road, up + 1), {0, 0, 0}, s_.view.scale, std::round));
+      add(Form::road, s_.roads.size() - 1, part.to, "", classOf("road"), titleOf(part),
+          std::round(10 * std::min(road.reach * s_.view.scale, 1e4)) / 10);
+      s_.shapes.back().axis = up;
+    }
+  }
+  std::vector<double> seenHeights(const ProfileInfo& road, std::size_t along) const {
+    const auto startOf = [&](const ProfileInfo& of) { return s_.at(m_.places.nominal, 0, m_.parts[of.part].to); };
+    const Place ahead = placeOf(m_.places.axes, 0, m_.axes.size(), along);
+    double first = -INFINITY, last = INFINITY;
+    for (const ProfileInfo& other : m_.profiles) {
+      const double half = 0.5 * dot(minus(startOf(other), startOf(road)), ahead);
+      if (half < 0) first = std::max(first, half);
+      if (half > 0) last = std::min(last, half);
+    }
+    std::vector<double> heights = road.heights;
+    const std::vector<double>& step = m_.places.step;
+    for (std::size_t i = 0; i < heights.size(); ++i)
+      if (const double at = step[i % step.size()] * road.reach; at < first || at > last) heights[i] = NAN;
+    return heights;
+  }
+
+  /// Wheels whose radii tell the ratio, with the belt about them; else a line from joint to joint, with a sign.
+  void addGear(std::size_t i) {
+    const PartInfo& part = m_.parts[i];
+    if (part.kind != PartKind::gear) return;
+    const auto wheels = gearWheelsOf(m_, i);
+    if (!wheels) {
+      if (part.from != part.to) add(Form::line, part, classOf("belt"));
+      return;
+    }
+    const auto paper = [&](double radius) { return std::round(10 * std::min(radius * s_.view.scale, 1e4)) / 10; };
+    if (wheels->first > 0)
+      add(Form::wheel, wheels->firstAxle, part.from, "nominal", classOf("wheel gear"), titleOf(part),
+          paper(wheels->first));
+    if (wheels->second > 0)
+      add(Form::wheel, wheels->secondAxle, part.to, "nominal", classOf("wheel gear"), titleOf(part),
+          paper(wheels->second));
+    if (!wheels->isBelt) return;
+    add(Form::belt, part, classOf("belt"), paper(wheels->first));
+    s_.shapes.back().axis = wheels->firstAxle;
+    s_.shapes.back().other = paper(wheels->second);
   }
 
   /// As wide as it is, round at its ends: a sphere is a line without length.
@@ -148,12 +226,16 @@ class Builder {
                     std::clamp(2 * part.radius * s_.view.scale, hairline, largest)));
   }
 
+  /// What acts, or is seen otherwise than as a line between its points.
   static bool isLoad(const PartInfo& part) {
-    return part.kind == PartKind::spring || part.kind == PartKind::damper || part.kind == PartKind::motor;
+    using enum PartKind;
+    constexpr std::array loads{spring, damper, motor, friction, gear, plane, profile};
+    return std::ranges::count(loads, part.kind) > 0;
   }
 
   void addLine(const PartInfo& part) {
     if (part.from == part.to || isLoad(part) || part.kind == PartKind::shape || part.kind == PartKind::play) return;
+    if (part.kind == PartKind::joint && isGround(part)) return;
     const bool slides = part.kind == PartKind::joint && part.slides == 1 && part.turns <= 1;
     add(Form::line, part,
         classOf(part.kind == PartKind::rigid  ? (isUnderSpring(part) ? "rail" : "link")
@@ -194,24 +276,48 @@ class Builder {
     const bool isSpring = part.kind == PartKind::spring;
     if ((!isSpring && part.kind != PartKind::damper) || (part.turns > 0 && part.slides == 0)) return;
     const PartInfo* link = linkUnder(part);
-    const bool isPair = std::ranges::count_if(m_.parts, [&](const PartInfo& other) {
-                          return isLoad(other) && other.name == part.name;
-                        }) > 1;
+    const auto isOneOf = [&](const PartInfo& other) {
+      return (other.kind == PartKind::spring || other.kind == PartKind::damper) && other.name == part.name;
+    };
+    const bool isPair = std::ranges::count_if(m_.parts, isOneOf) > 1;
     add(isSpring ? Form::zigzag : Form::dashpot, link ? link->from : part.from, part.to, "nominal", classOf("spring"),
         titleOf(part), isPair ? (isSpring ? -aside : aside) : 0);
   }
 
-  /// At a joint: a motor, and a spring that it winds.
-  void addSign(const PartInfo& part) {
-    const bool isMotor = part.kind == PartKind::motor;
-    if (!isMotor && (part.kind != PartKind::spring || part.turns != 1)) return;
-    if (isMotor)
-      add(Form::sign, part.to, part.to, "nominal", classOf("motor"),
-          titleOf(part) + "<circle cx=\"-17\" cy=\"17\" r=\"8\"/><text x=\"-17\" y=\"21\">M</text>");
-    else
+  /// At a joint: what turns it, rubs or resists in it, gears that are not seen as wheels, and a spring that it winds,
+  /// which lies about it.
+  void addSign(std::size_t i) {
+    const PartInfo& part = m_.parts[i];
+    if (part.kind == PartKind::spring && part.turns == 1)
       add(Form::sign, part.to, part.to, "nominal", classOf("coil"),
           titleOf(part) +
               "<path d=\"M0 -5a5 5 0 0 1 0 10a7.5 7.5 0 0 1 0 -15a10 10 0 0 1 0 20a12.5 12.5 0 0 1 -9 -4\"/>");
+    const std::string_view sign = signOf(i);
+    if (sign.empty()) return;
+    const auto [x, y] = roomFor(part.to);
+    add(Form::sign, part.to, part.to, "nominal", classOf(part.kind == PartKind::motor ? "motor" : "load"),
+        titleOf(part) +
+            fmt::format("<g transform=\"{}translate({} {})\">{}</g>", s_.isDense ? "scale(0.6) " : "", x, y, sign));
+  }
+
+  /// Of 16 by 16 units: a motor, the shoes of a brake about a drum or a rail, a piston, two wheels.
+  std::string_view signOf(std::size_t i) const {
+    const PartInfo& part = m_.parts[i];
+    const bool turns = part.turns == 1;
+    if (part.kind == PartKind::motor) return "<circle r=\"8\"/><text y=\"4\">M</text>";
+    if (part.kind == PartKind::friction && turns)
+      return "<circle r=\"4\"/><path class=\"shoe\" d=\"M-4 -5.5a7 7 0 0 0 0 11M4 -5.5a7 7 0 0 1 0 11\"/>";
+    if (part.kind == PartKind::friction) return "<path d=\"M-9 0H9\"/><path class=\"shoe\" d=\"M-5 -3.2H5M-5 3.2H5\"/>";
+    if (part.kind == PartKind::damper && turns) return "<path d=\"M-6 -3V6H6V-3M-4.5 1.5H4.5M0 1.5V-8\"/>";
+    if (part.kind == PartKind::gear && !gearWheelsOf(m_, i))
+      return "<circle cx=\"-3\" r=\"5\"/><circle cx=\"5.5\" r=\"3.5\"/>";
+    return {};
+  }
+
+  /// Where the next sign at a point stands: about it, but for where its name is.
+  std::pair<int, int> roomFor(std::uint64_t point) {
+    constexpr std::array<std::pair<int, int>, 6> rooms{{{-17, 17}, {17, 17}, {-17, -17}, {0, 27}, {-36, 17}, {36, 17}}};
+    return rooms[signs_[point]++ % rooms.size()];
   }
 
   /// As large as it is, seen from where it stands; a disc where only mass and inertia are known.
@@ -255,6 +361,7 @@ class Builder {
     if (part.kind == PartKind::rigid && part.from == part.to && part.type == "weld")
       add(Form::line, part, classOf("weld"));
     if (part.kind != PartKind::joint || part.turns + part.slides > 3) return;
+    if (part.slides > 0 && isGround(part)) return;
     bool hasPin = false;
     for (const std::string_view side : {"edge", "face"})
       for (std::size_t a = 0; a < m_.axes.size(); ++a) {
@@ -295,6 +402,7 @@ class Builder {
 
   const PictureResult& m_;
   Scene s_;
+  std::map<std::uint64_t, std::size_t> signs_;  // how many stand at a point
 };
 
 /// A round length of about a fifth of the width.
@@ -356,6 +464,8 @@ PictureResult magnified(PictureResult machine, double factor) {
       (*list)[i] = start + factor * ((*list)[i] - start);
     }
   for (double& sag : places.sag) sag *= factor;
+  for (ProfileInfo& road : machine.profiles)
+    for (double& height : road.heights) height *= factor;
   return machine;
 }
 

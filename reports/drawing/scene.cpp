@@ -120,6 +120,62 @@ class Picture {
     return straight({at.x - x, at.y - y}, {at.x + x, at.y + y});
   }
 
+  /// What of a plane lies beneath a point; hatched below where it is seen from its edge.
+  std::string plane(const Shape& shape) const {
+    const Place normal = axis(shape.axis), foot = footOf(shape, normal);
+    if (!isKnown(normal) || !isKnown(foot)) return {};
+    const Place toBeholder = cross(stance_.right, stance_.up);
+    Place level = cross(normal, toBeholder);
+    if (norm(level) < 0.01) level = stance_.right;
+    const double length = norm(level);
+    for (double& part : level) part /= length;
+    const Sight at = sightOf(s_, foot, stance_), a = times(direction(level), shape.size),
+                b = times(direction(cross(normal, level)), 0.6 * shape.size);
+    if (std::fabs(dot(normal, toBeholder)) >= 0.05)
+      return "M" + pair({at.x - a.x - b.x, at.y - a.y - b.y}) + "L" + pair({at.x + a.x - b.x, at.y + a.y - b.y}) + "L" +
+             pair({at.x + a.x + b.x, at.y + a.y + b.y}) + "L" + pair({at.x - a.x + b.x, at.y - a.y + b.y}) + "Z";
+    std::vector<Sight> line;
+    constexpr int steps = 12;
+    for (int k = -steps; k <= steps; ++k) line.push_back({at.x + k * a.x / steps, at.y + k * a.y / steps});
+    return ground(line, direction(level), direction(normal));
+  }
+
+  /// The profile beneath a point, hatched below.
+  std::string road(const Sight& at, const Shape& shape) const {
+    const std::vector<double>& heights = s_.roads[shape.from];
+    const std::size_t steps = heights.size() / std::max<std::size_t>(1, s_.time.size());
+    const Sight up = direction(axis(shape.axis)), ahead = direction(axis(shape.axis + 1));
+    if (!isOnPaper(up) || !isOnPaper(ahead) || steps < 2) return {};
+    std::vector<Sight> line;
+    for (std::size_t k = 0; k < steps; ++k) {
+      const double along = (2 * static_cast<double>(k) / static_cast<double>(steps - 1) - 1) * shape.size,
+                   height = Scene::unit * heights[stance_.row * steps + k];
+      line.push_back({at.x + along * ahead.x + height * up.x, at.y + along * ahead.y + height * up.y});
+    }
+    return ground(line, ahead, up);
+  }
+
+  /// Two straight lines around two wheels; none where one of them is within the other.
+  std::string belt(const Shape& shape) const {
+    const Place axle = axis(shape.axis), first = s_.at(s_.nominal, stance_.row, shape.from),
+                second = s_.at(s_.nominal, stance_.row, shape.to);
+    Place across = minus(second, first);
+    const double beside = dot(across, axle);
+    for (std::size_t i = 0; i < 3; ++i) across[i] = Scene::unit * (across[i] - beside * axle[i]);
+    const double distance = norm(across), along = (shape.size - shape.other) / distance;
+    if (!isKnown(axle) || !(std::fabs(along) < 1)) return {};
+    for (double& part : across) part /= distance;
+    const double aside = std::sqrt(1 - along * along);
+    const Sight e = direction(across), c = direction(cross(axle, across)), p = sightOf(s_, first, stance_),
+                q = sightOf(s_, second, stance_);
+    std::string path;
+    for (const double side : {aside, -aside}) {
+      const double x = along * e.x + side * c.x, y = along * e.y + side * c.y;
+      path += straight({p.x + shape.size * x, p.y + shape.size * y}, {q.x + shape.other * x, q.y + shape.other * y});
+    }
+    return path;
+  }
+
   /// Its rim, and the spoke along the axis behind that of the axle; nothing where one of them is unknown.
   std::string wheel(const Sight& at, std::size_t number, double radius) const {
     const Place axle = axis(number), along = axis(number + 1);
@@ -138,6 +194,33 @@ class Picture {
  private:
   Place axis(std::size_t number) const {
     return placeOf(s_.axes, stance_.row, s_.axes.size() / std::max<std::size_t>(1, 3 * s_.time.size()), number);
+  }
+
+  static Sight times(const Sight& a, double factor) { return {factor * a.x, factor * a.y}; }
+
+  /// What lies of the plane beneath the second point.
+  Place footOf(const Shape& shape, const Place& normal) const {
+    Place foot = s_.at(s_.nominal, stance_.row, shape.to);
+    const double height = dot(minus(foot, s_.at(s_.nominal, stance_.row, shape.from)), normal);
+    for (std::size_t i = 0; i < 3; ++i) foot[i] = foot[i] - height * normal[i];
+    return foot;
+  }
+
+  /// A line, and short ones from every fourth place of it, backwards and down.
+  static std::string ground(const std::vector<Sight>& line, const Sight& ahead, const Sight& up) {
+    constexpr std::size_t every = 4;
+    constexpr double back = 4, down = 6;
+    std::string path, hatch;
+    bool isBegun = false;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      const bool isThere = isOnPaper(line[k]);
+      if (isThere) path += (isBegun ? "L" : "M") + pair(line[k]);
+      if (isThere && k % every == every / 2)
+        hatch +=
+            straight(line[k], {line[k].x - back * ahead.x - down * up.x, line[k].y - back * ahead.y - down * up.y});
+      isBegun = isThere;
+    }
+    return path + hatch;
   }
 
   const Scene& s_;
@@ -189,38 +272,42 @@ std::vector<std::pair<std::string_view, std::string>> attributesOf(const Scene& 
     if (shape.form == arrow) return {{"d", straight(at, {at.x + 20 * to.x, at.y + 20 * to.y})}};
     return {{"x", text(at.x + 28 * to.x)}, {"y", text(at.y + 28 * to.y + 4)}};
   }
+  const bool isAtOne = shape.form == pin || shape.form == wheel || shape.form == road;
   const Sight to = picture.point(scene.nominal, stance.row, shape.to),
-              from =
-                  shape.form == pin || shape.form == wheel ? to : picture.point(scene.nominal, stance.row, shape.from);
+              from = isAtOne ? to : picture.point(scene.nominal, stance.row, shape.from);
   if (!isOnPaper(from) || !isOnPaper(to)) return {};
   if (shape.form == circle) return {{"cx", text(to.x)}, {"cy", text(to.y)}};
   if (shape.form == name) return {{"x", text(to.x + 15)}, {"y", text(to.y - 9)}};
   if (shape.form == sign) return {{"transform", "translate(" + pair(to) + ")"}};
   return {{"d", shape.form == pin       ? picture.pin(to, shape.from)
                 : shape.form == wheel   ? picture.wheel(to, shape.from, shape.size)
+                : shape.form == belt    ? picture.belt(shape)
+                : shape.form == plane   ? picture.plane(shape)
+                : shape.form == road    ? picture.road(to, shape)
                 : shape.form == zigzag  ? spring(from, to, shape.size)
                 : shape.form == dashpot ? damper(from, to, shape.size)
                                         : straight(from, to)}};
 }
 
 std::string sceneData(const Scene& scene) {
-  constexpr const char* forms[] = {"line",  "zigzag", "dashpot", "circle", "name",  "sign",  "pin",
-                                   "wheel", "sample", "now",     "swept",  "arrow", "letter"};
+  constexpr const char* forms[] = {"line", "zigzag", "dashpot", "circle", "name", "sign",  "pin",   "wheel",
+                                   "belt", "plane",  "road",    "sample", "now",  "swept", "arrow", "letter"};
   const View& view = scene.view;
-  std::vector<std::string> shapes, links;
+  std::vector<std::string> shapes, links, roads;
   for (const Shape& shape : scene.shapes)
-    shapes.push_back(
-        fmt::format("[\"{}\",{},{},{:.1f}]", forms[static_cast<int>(shape.form)], shape.from, shape.to, shape.size));
+    shapes.push_back(fmt::format("[\"{}\",{},{},{:.1f},{},{:.1f}]", forms[static_cast<int>(shape.form)], shape.from,
+                                 shape.to, shape.size, shape.axis, shape.other));
   for (const auto& [from, to] : scene.links) links.push_back(fmt::format("[{},{}]", from, to));
   const auto vector = [](const Place& v) { return numberList({v[0], v[1], v[2]}, 9); };
   const auto wholes = [](const std::vector<double>& list) { return numberList(list, 10); };
+  for (const std::vector<double>& heights : scene.roads) roads.push_back(wholes(heights));
   return fmt::format(
       R"({{"unit":{},"width":{:g},"height":{:g},"pin":{},"right":{},"up":{},"vertical":{},"isSide":{},"time":{},)"
-      R"("points":{},"shapes":{},"links":{},"moving":{},"nominal":{},"axes":{},"samples":{},"lower":{},"upper":{},"sag":{}}})",
+      R"("points":{},"shapes":{},"links":{},"moving":{},"nominal":{},"axes":{},"samples":{},"lower":{},"upper":{},"sag":{},"roads":{}}})",
       Scene::unit, view.width, view.height, pinLength, vector(view.right), vector(view.up), vector(view.vertical),
       view.isSideView, numberList(scene.time, 9), scene.points, jsonList(shapes), jsonList(links),
       wholes({scene.moving.begin(), scene.moving.end()}), wholes(scene.nominal), numberList(scene.axes, 4),
-      wholes(scene.samples), wholes(scene.lower), wholes(scene.upper), wholes(scene.sag));
+      wholes(scene.samples), wholes(scene.lower), wholes(scene.upper), wholes(scene.sag), jsonList(roads));
 }
 
 }  // namespace gamut

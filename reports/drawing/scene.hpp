@@ -25,6 +25,9 @@ struct Shape {
     sign,     ///< a drawing that does not turn,
     pin,      ///< along an axis, which stands for the first point
     wheel,    ///< about an axis, with a spoke along the axis behind it, of the radius `size`
+    belt,     ///< about wheels at both points, of the radii `size` and `other`, the first about `axis`
+    plane,    ///< through the first point, across `axis`: what lies beneath the second of it, `size` to either side
+    road,     ///< the profile `from` beneath the second point, `size` to either side; up is `axis`, then comes ahead
     sample,   ///< all links of a sample
     now,      ///< the boxes of all moving points
     swept,    ///< what these sweep
@@ -33,13 +36,16 @@ struct Shape {
   };
 
   Form form = Form::line;
-  std::size_t from = 0, to = 0;  ///< two points; or the axis, the sample or the direction
+  std::size_t from = 0, to = 0;  ///< two points; or the axis, the sample, the direction or the profile
   double size = 0;               ///< in units of the paper, to a tenth
 
   // Only on paper.
   std::string look = {};     ///< attributes that stay
   std::string content = {};  ///< of the element
   std::string layer = {};    ///< the entry of the key that shows and hides it
+
+  std::size_t axis = 0;
+  double other = 0;  ///< as `size`
 };
 
 /// Places are [row][point][direction], from the middle of the paper, whole numbers of a unit so small that nobody sees
@@ -55,8 +61,9 @@ struct Scene {
   bool isDense = false;                                    ///< joints are drawn small, on paper and on the screen
   double magnification = 1;                                ///< how many times as large motions are drawn
   std::vector<double> nominal, axes;
-  std::vector<double> samples;            ///< row after row of sample after sample
-  std::vector<double> lower, upper, sag;  ///< rounded outward
+  std::vector<double> samples;             ///< row after row of sample after sample
+  std::vector<double> lower, upper, sag;   ///< rounded outward
+  std::vector<std::vector<double>> roads;  ///< heights above the point, [row][step], steps evenly from behind to ahead
 
   Place at(const std::vector<double>& places, std::size_t row, std::size_t k) const {
     return placeOf(places, row, points, k);

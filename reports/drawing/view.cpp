@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "reports/drawing/axes.hpp"
+#include "reports/drawing/gears.hpp"
 
 namespace gamut {
 namespace {
@@ -120,19 +121,41 @@ bool isKnown(const Place& place) {
 
 namespace {
 
-/// Of wheels, where they are at the start: a spoke and one across it, to either side.
+/// Of a wheel about an axis, where it is at the start: the spoke behind the axis and one across it, to either side.
+void addRim(const PictureResult& machine, std::size_t point, std::size_t axis, double radius,
+            std::vector<Place>& places) {
+  const std::size_t axes = machine.axes.size();
+  const Place centre = placeOf(machine.places.nominal, 0, machine.points.size(), point),
+              axle = placeOf(machine.places.axes, 0, axes, axis),
+              spoke = placeOf(machine.places.axes, 0, axes, axis + 1);
+  for (const Place& across : {spoke, cross(axle, spoke)})
+    for (const double along : {radius, -radius})
+      if (const Place rim = minus(centre, times(across, along)); isKnown(rim)) places.push_back(rim);
+}
+
 void addRims(const PictureResult& machine, std::vector<Place>& places) {
-  const std::size_t points = machine.points.size(), axes = machine.axes.size();
-  for (std::size_t a = 0; a + 1 < axes; ++a) {
+  for (std::size_t a = 0; a + 1 < machine.axes.size(); ++a) {
     const PartInfo& part = machine.parts[machine.axes[a].part];
-    if (part.kind != PartKind::wheel || machine.axes[a + 1].part != machine.axes[a].part) continue;
-    const Place centre = placeOf(machine.places.nominal, 0, points, part.to),
-                axle = placeOf(machine.places.axes, 0, axes, a), spoke = placeOf(machine.places.axes, 0, axes, a + 1);
-    for (const Place& across : {spoke, cross(axle, spoke)})
-      for (const double radius : {part.radius, -part.radius}) {
-        const Place rim = minus(centre, times(across, radius));
-        if (isKnown(rim)) places.push_back(rim);
-      }
+    if (part.kind == PartKind::wheel && machine.axes[a + 1].part == machine.axes[a].part)
+      addRim(machine, part.to, a, part.radius, places);
+  }
+  for (std::size_t i = 0; i < machine.parts.size(); ++i)
+    if (const auto wheels = gearWheelsOf(machine, i)) {
+      if (wheels->first > 0) addRim(machine, machine.parts[i].from, wheels->firstAxle, wheels->first, places);
+      if (wheels->second > 0) addRim(machine, machine.parts[i].to, wheels->secondAxle, wheels->second, places);
+    }
+}
+
+/// The way ahead over a road is seen too; that hardly makes the machine wider.
+void addRoads(const PictureResult& machine, std::vector<Place>& places) {
+  constexpr double little = 0.01;  // of its reach
+  for (const ProfileInfo& road : machine.profiles) {
+    const auto up = std::ranges::find(machine.axes, road.part, &AxisInfo::part);
+    if (up == machine.axes.end()) continue;
+    const auto along = static_cast<std::size_t>(up - machine.axes.begin()) + 1;
+    const Place at = placeOf(machine.places.nominal, 0, machine.points.size(), machine.parts[road.part].to),
+                ahead = placeOf(machine.places.axes, 0, machine.axes.size(), along);
+    if (const Place next = minus(at, times(ahead, -little * road.reach)); isKnown(next)) places.push_back(next);
   }
 }
 
@@ -142,6 +165,7 @@ View aimedView(const PictureResult& machine) {
   view.width = paperWidth;
   std::vector<Place> motions = knownOf(machine.places.nominal, machine.places.samples);
   addRims(machine, motions);
+  addRoads(machine, motions);
   if (motions.empty()) return view;
   const Place normal = normalOf(machine, motions);
   view.isSideView = norm(normal) > 0;

@@ -8,10 +8,11 @@
 /**
  * As sceneData (reports/drawing/scene.hpp) writes it. Places are [row][point][direction] in whole units, null where unknown.
  * @typedef {{unit: number, width: number, height: number, pin: number, right: Place, up: Place, vertical: Place, isSide: boolean,
- *   time: number[], points: number, shapes: [string, number, number, number][], links: [number, number][], moving: number[],
+ *   time: number[], points: number, shapes: Shape[], links: [number, number][], moving: number[],
  *   nominal: (number | null)[], axes: (number | null)[], samples: (number | null)[], lower: (number | null)[],
- *   upper: (number | null)[], sag: (number | null)[]}} Scene
+ *   upper: (number | null)[], sag: (number | null)[], roads: (number | null)[][]}} Scene
  */
+/** Form, from, to, size, axis, other (reports/drawing/scene.hpp). @typedef {[string, number, number, number, number, number]} Shape */
 
 /** @param {Place} a @param {Place} b */
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -58,6 +59,21 @@ const dashpot = (a, b, aside) => {
     "M" + at(piston, aside) + "L" + at(1, aside) + "L" + pair(b);
 };
 
+/**
+ * A line, and short ones from every fourth place of it, backwards and down.
+ * @param {(Sight | null)[]} places @param {Sight} ahead @param {Sight} up
+ */
+const ground = (places, [ax, ay], [ux, uy]) => {
+  const every = 4, back = 4, down = 6;
+  let path = "", hatch = "", isBegun = false;
+  places.forEach((place, k) => {
+    if (place) path += (isBegun ? "L" : "M") + pair(place);
+    if (place && k % every === every / 2) hatch += line(place, [place[0] - back * ax - down * ux, place[1] - back * ay - down * uy]);
+    isBegun = place !== null;
+  });
+  return path + hatch;
+};
+
 /** The least convex polygon that holds all of these. @param {Sight[]} sights */
 const hull = sights => {
   /** @param {Sight[]} list */
@@ -78,6 +94,11 @@ const hull = sights => {
   const corners = [...chain(sorted), ...chain(sorted.reverse())];
   return corners.length === 0 ? "" : "M" + corners.map(pair).join("L") + "Z";
 };
+
+/** @param {Place} v @param {number} factor @returns {Place} */
+const scaled = ([x, y, z], factor) => [factor * x, factor * y, factor * z];
+/** @param {Place} a @param {Place} b @returns {Place} */
+const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 
 /** Of the axes there are as many a row as pins name. @param {Scene} scene */
 const axesOf = ({ axes, time }) => axes.length / (3 * time.length);
@@ -166,24 +187,90 @@ export class Picture {
     return "M" + rim.map(pair).join("L") + "Z" + line([x, y], [x + radius * ux, y + radius * uy]);
   }
 
-  /** What moves of an element; null where it is not seen. @param {[string, number, number, number]} shape @returns {Record<string, string> | null} */
-  attributesOf([form, from, to, size]) {
+  /** @param {number} number */
+  axis(number) {
+    return this.at(this.scene.axes, this.stance.row, number, axesOf(this.scene));
+  }
+
+  /** What of a plane lies beneath a point; hatched below where it is seen from its edge. @param {Shape} shape */
+  plane([, from, to, size, number]) {
+    const { scene: { nominal }, stance: { row, right, up } } = this;
+    const normal = this.axis(number), through = this.at(nominal, row, from), over = this.at(nominal, row, to);
+    if (!normal || !through || !over) return "";
+    const [x, y] = this.seen(minus(over, scaled(normal, dot(minus(over, through), normal)))), toBeholder = cross(right, up);
+    const across = cross(normal, toBeholder), length = Math.hypot(...across), level = length < 0.01 ? right : scaled(across, 1 / length);
+    const [lx, ly] = this.direction(level), [ax, ay] = [lx * size, ly * size];
+    const [bx, by] = this.direction(cross(normal, level)).map(part => part * (0.6 * size));
+    if (Math.abs(dot(normal, toBeholder)) >= 0.05)
+      return "M" + [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => pair([x + a * ax + b * bx, y + a * ay + b * by])).join("L") + "Z";
+    const steps = 12;
+    /** @type {Sight[]} */
+    const places = Array.from({ length: 2 * steps + 1 }, (_, k) => [x + (k - steps) * ax / steps, y + (k - steps) * ay / steps]);
+    return ground(places, [lx, ly], this.direction(normal));
+  }
+
+  /** The profile beneath a point, hatched below. @param {Sight} centre @param {Shape} shape */
+  road([x, y], [, profile, , size, number]) {
+    const { roads, time, unit } = this.scene, heights = roads[profile], steps = heights.length / time.length;
+    const up = this.axis(number), ahead = this.axis(number + 1);
+    if (!up || !ahead || steps < 2) return "";
+    const [ux, uy] = this.direction(up), [ax, ay] = this.direction(ahead);
+    const places = heights.slice(this.stance.row * steps, (this.stance.row + 1) * steps).map((whole, k) => {
+      if (whole === null) return null;
+      const along = (2 * k / (steps - 1) - 1) * size, height = unit * whole;
+      return /** @type {Sight} */ ([x + along * ax + height * ux, y + along * ay + height * uy]);
+    });
+    return ground(places, [ax, ay], [ux, uy]);
+  }
+
+  /** Two straight lines around two wheels; none where one of them is within the other. @param {Shape} shape */
+  belt([, from, to, size, number, other]) {
+    const { nominal, unit } = this.scene, { row } = this.stance;
+    const axle = this.axis(number), first = this.at(nominal, row, from), second = this.at(nominal, row, to);
+    if (!axle || !first || !second) return "";
+    const way = minus(second, first), across = scaled(minus(way, scaled(axle, dot(way, axle))), unit);
+    const distance = Math.hypot(...across), along = (size - other) / distance, aside = Math.sqrt(1 - along * along);
+    if (!(Math.abs(along) < 1)) return "";
+    const e = scaled(across, 1 / distance), [ex, ey] = this.direction(e), [cx, cy] = this.direction(cross(axle, e));
+    const [px, py] = this.seen(first), [qx, qy] = this.seen(second);
+    return [aside, -aside].map(side => {
+      const x = along * ex + side * cx, y = along * ey + side * cy;
+      return line([px + size * x, py + size * y], [qx + other * x, qy + other * y]);
+    }).join("");
+  }
+
+  /** @param {Sight} at @param {number} number */
+  pin([x, y], number) {
+    const [dx, dy] = this.direction(this.axis(number)).map(part => this.scene.pin * part);
+    return line([x - dx, y - dy], [x + dx, y + dy]);
+  }
+
+  /** From the one place to the other, or about the latter. @param {Shape} shape @param {Sight} a @param {Sight} b */
+  path(shape, a, b) {
+    const [form, from, , size] = shape;
+    if (form === "pin") return this.pin(b, from);
+    if (form === "wheel") return this.wheel(b, from, size);
+    if (form === "belt" || form === "plane") return this[form](shape);
+    if (form === "road") return this.road(b, shape);
+    if (form === "zigzag") return zigzag(a, b, size);
+    return form === "dashpot" ? dashpot(a, b, size) : line(a, b);
+  }
+
+  /** What moves of an element; null where it is not seen. @param {Shape} shape @returns {Record<string, string> | null} */
+  attributesOf(shape) {
+    const [form, from, to] = shape;
     if (form === "sample") return { d: this.sample(from) };
     if (form === "now" || form === "swept") return { d: this[form]() };
     if (form === "arrow" || form === "letter") return this.directionShape(form, from);
-    const { nominal, axes, pin } = this.scene, { row } = this.stance;
-    const b = this.point(nominal, row, to), a = form === "pin" || form === "wheel" ? b : this.point(nominal, row, from);
+    const { nominal } = this.scene, { row } = this.stance;
+    const isAtOne = form === "pin" || form === "wheel" || form === "road";
+    const b = this.point(nominal, row, to), a = isAtOne ? b : this.point(nominal, row, from);
     if (!a || !b) return null;
     const [x, y] = b;
     if (form === "circle") return { cx: x.toFixed(1), cy: y.toFixed(1) };
     if (form === "name") return { x: (x + 15).toFixed(1), y: (y - 9).toFixed(1) };
     if (form === "sign") return { transform: "translate(" + pair(b) + ")" };
-    if (form === "wheel") return { d: this.wheel(b, from, size) };
-    if (form === "zigzag") return { d: zigzag(a, b, size) };
-    if (form === "dashpot") return { d: dashpot(a, b, size) };
-    if (form !== "pin") return { d: line(a, b) };
-    const [dx, dy] = this.direction(this.at(axes, row, from, axesOf(this.scene))).map(part => pin * part);
-    return { d: line([x - dx, y - dy], [x + dx, y + dy]) };
+    return { d: this.path(shape, a, b) };
   }
 }
 

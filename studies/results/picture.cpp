@@ -9,7 +9,8 @@ namespace {
 namespace scale {
 constexpr std::string_view direction = "/machine/directions/direction", point = "/machine/points/point",
                            part = "/machine/parts/part", axis = "/machine/axes/axis", time = "/machine/places/time",
-                           sample = "/machine/places/sample";
+                           sample = "/machine/places/sample", step = "/machine/places/step",
+                           profile = "/machine/profiles/profile";
 }
 
 std::vector<Field> fieldsOf(PictureResult& m) { return m.fieldsAnd({}); }
@@ -31,8 +32,9 @@ std::vector<Field> fieldsOfPart(PartInfo& p) {
       {"type", &p.type, unit::none, "its type in the study"},
       {"kind", Choice::of(p.kind), unit::none,
        "\"rigid\", \"joint\", \"mass\" (from a frame to its centre), \"spring\", \"shape\", \"play\", \"damper\", "
-       "\"wheel\" or "
-       "\"motor\""},
+       "\"wheel\", \"motor\", \"friction\", \"gear\" (between two joints), \"plane\" (through its first point, beneath "
+       "its "
+       "second) or \"profile\" (beneath its second point)"},
       {"from", &p.from, unit::none, "index of the point where it begins", allowed::count, scale::point},
       {"to", &p.to, unit::none, "index of the point where it ends", allowed::count, scale::point},
       {"turns", &p.turns, unit::none, "of a joint, or of what acts at one: in how many ways it turns", allowed::count},
@@ -42,11 +44,14 @@ std::vector<Field> fieldsOfPart(PartInfo& p) {
       fresh({"told", &p.told, unit::none, "unit in which the page tells the mass, as the study states it; empty: kg"}),
       fresh({"radius", &p.radius, "m",
              "of a shape, about the line between its points, of play, to either side, or of a wheel, nominal",
+             allowed::finite}),
+      fresh({"ratio", &p.ratio, unit::none,
+             "of a gear: by how much the joint that follows turns [rad], or slides [m], by the other, nominal",
              allowed::finite})};
 }
 
 std::vector<Field> fieldsOfAxis(AxisInfo& a) {
-  return {{"axis", &a.name, unit::none, "name of a joint's axis, or of a wheel's axle or spoke"},
+  return {{"axis", &a.name, unit::none, "name of a joint's axis, of a wheel's axle or spoke, or of another direction"},
           {"joint", &a.part, unit::none, "index of the part", allowed::count, scale::part}};
 }
 
@@ -68,7 +73,19 @@ std::vector<Field> fieldsOfPlaces(Places& p) {
       places("lower", p.lower, "enclosure at these times, lower bound; NaN where there is none"),
       places("upper", p.upper, "enclosure at these times, upper bound"),
       places("sag", p.sag,
-             "how far a point may be, since the time before, from the straight line between its places at both times")};
+             "how far a point may be, since the time before, from the straight line between its places at both times"),
+      {"step", &p.step, unit::one, "where the heights of profiles are told: parts of their reach", {step}}};
+}
+
+std::vector<Field> fieldsOfProfile(ProfileInfo& p) {
+  return {{"profile", &p.name, unit::none, "name of the element"},
+          {"part", &p.part, unit::none, "index of the part", allowed::count, scale::part},
+          {"reach", &p.reach, "m", "to either side of the point", allowed::finite},
+          noise({"heights",
+                 &p.heights,
+                 "m",
+                 "above the point at that time, nominal; NaN where the profile has none",
+                 {scale::time, scale::step}})};
 }
 
 }  // namespace
@@ -79,7 +96,8 @@ void PictureResult::describe(std::vector<Group>& groups) {
       listOf("/machine/directions", "in which places are measured", scale::direction, directions, fieldsOfDirection));
   groups.push_back(listOf("/machine/points", "what has a place of its own", scale::point, points, fieldsOfPoint));
   groups.push_back(listOf("/machine/parts", "elements between two points", scale::part, parts, fieldsOfPart));
-  groups.push_back(listOf("/machine/axes", "of joints and wheels", scale::axis, axes, fieldsOfAxis));
+  groups.push_back(
+      listOf("/machine/axes", "of joints, wheels and what else has a direction", scale::axis, axes, fieldsOfAxis));
   groups.push_back(groupOf("/machine/places",
                            "where the points are, in the inertial frame, at some of the output times", places,
                            fieldsOfPlaces));
@@ -89,6 +107,8 @@ void PictureResult::describe(std::vector<Group>& groups) {
       if (!isInterval(lower[i], upper[i])) return false;
     return lower.size() == upper.size();
   };
+  groups.push_back(listOf("/machine/profiles", "roads and the like, as they lie beneath points", scale::profile,
+                          profiles, fieldsOfProfile));
 }
 
 }  // namespace gamut

@@ -22,10 +22,25 @@ struct PointInfo {
 };
 
 /// In the order of Skeleton::Kind.
-enum class PartKind : unsigned char { rigid, joint, mass, spring, shape, play, damper, wheel, motor };
+enum class PartKind : unsigned char {
+  rigid,
+  joint,
+  mass,
+  spring,
+  shape,
+  play,
+  damper,
+  wheel,
+  motor,
+  friction,
+  gear,
+  plane,
+  profile
+};
 template <>
-inline constexpr std::array<std::string_view, 9> words<PartKind>{"rigid", "joint",  "mass",  "spring", "shape",
-                                                                 "play",  "damper", "wheel", "motor"};
+inline constexpr std::array<std::string_view, 13> words<PartKind>{"rigid", "joint",  "mass",   "spring", "shape",
+                                                                  "play",  "damper", "wheel",  "motor",  "friction",
+                                                                  "gear",  "plane",  "profile"};
 
 /// Between two points, by index.
 struct PartInfo {
@@ -36,11 +51,20 @@ struct PartInfo {
   double mass = 0;                     ///< nominal, kg
   std::string told = {};               ///< unit in which people are told of it, as the study states it; empty: kg
   double radius = 0;  ///< of a shape, about the line between the points, of play or a wheel, nominal, m
+  double ratio = 0;   ///< of a gear: by how much the joint that follows moves by the other, nominal
 };
 
 struct AxisInfo {
-  std::string name;        ///< "hinge.axis"; of a wheel "rotor.axle", then "rotor.spoke"
-  std::uint64_t part = 0;  ///< the joint or the wheel
+  std::string name;  ///< "hinge.axis"; of a wheel "rotor.axle", then "rotor.spoke"
+  std::uint64_t part = 0;
+};
+
+/// A road, or the like, as it lies beneath a point.
+struct ProfileInfo {
+  std::string name;
+  std::uint64_t part = 0;
+  double reach = 0;             ///< to either side of the point, m
+  std::vector<double> heights;  ///< above the point, [time][step], m; NaN where it has none
 };
 
 /// At some of the output times, all in the inertial frame, [time][point][direction] unless said otherwise, m. NaN where
@@ -55,6 +79,7 @@ struct Places {
   std::vector<double> lower, upper;  ///< of every point, at these times
   /// How far a point may be, since the time before, from the straight line between its places at both times.
   std::vector<double> sag;
+  std::vector<double> step;  ///< where the heights of profiles are told: parts of their reach, from -1 to 1
 };
 
 /// Present where there is something to be seen; it is less than was asked for where places are not enclosed to the end.
@@ -64,6 +89,7 @@ struct PictureResult final : Part {
   std::vector<PartInfo> parts;
   std::vector<AxisInfo> axes;
   Places places;
+  std::vector<ProfileInfo> profiles;
 
   std::string title() const override { return "picture"; }
   void describe(std::vector<Group>& groups) override;

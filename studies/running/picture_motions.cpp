@@ -31,7 +31,7 @@ void describeParts(const Study& study, const Skeleton& skeleton, PictureResult& 
     machine.parts.push_back({printable(part.name), printable(part.type), static_cast<PartKind>(part.kind), part.from,
                              part.to, part.turns, part.slides, nominal(part.mass),
                              told == study.units.end() ? std::string() : told->second,
-                             finiteOrZero(nominal(part.radius))});
+                             finiteOrZero(std::fabs(nominal(part.radius))), finiteOrZero(nominal(part.ratio))});
   }
   for (const Skeleton::JointAxis& axis : skeleton.axes) machine.axes.push_back({printable(axis.name), axis.part});
 }
@@ -63,6 +63,40 @@ class Follower {
   double seconds_;
   std::optional<Witness> witness_;
 };
+
+/// As far as the machine is large at the start, or goes in a quarter of the motion.
+double reachOf(const Places& places, std::size_t points, double speed) {
+  double size = 0;
+  for (std::size_t k = 0; k < 3 * points; ++k)
+    for (std::size_t l = k % 3; l < k; l += 3) size = std::fmax(size, std::fabs(places.nominal[k] - places.nominal[l]));
+  return size > 0 ? size : 0.25 * std::fabs(speed) * places.time.back();
+}
+
+/// What lies ahead by s is met s/v later: heights at all times, those before and behind the motion's too.
+void lookAlongProfiles(const Run& run, const Seen& seen, PictureResult& machine) {
+  const std::vector<double>& start = run.machine.motion.nominal;
+  const auto states = static_cast<std::ptrdiff_t>(run.machine.motion.motion.f.states());
+  if (seen.heights.outputs() == 0) return;
+  const Program heights = run.machine.alongCourses(seen.heights);
+  Places& places = machine.places;
+  for (std::size_t k = 0; k <= 2 * seenSteps; ++k)
+    places.step.push_back(static_cast<double>(k) / static_cast<double>(seenSteps) - 1);
+  Evaluator<double> evaluate(heights);
+  evaluate.setParameters(std::vector<double>(start.begin() + states, start.end()));
+  std::size_t number = 0;
+  const std::vector<Skeleton::Part>& parts = seen.skeleton.parts;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].kind != Skeleton::Kind::profile) continue;
+    const double speed = midpoint(run.study.mechanism.rangeOf(parts[i].speed));
+    ProfileInfo profile{printable(parts[i].name), i, reachOf(places, machine.points.size(), speed), {}};
+    const auto heightAt = [&](double t) { return evaluate(t, {start.begin(), start.begin() + states})[number]; };
+    for (const double now : places.time)
+      for (const double step : places.step)
+        profile.heights.push_back(heightAt(now + step * profile.reach / speed) - heightAt(now));
+    machine.profiles.push_back(std::move(profile));
+    ++number;
+  }
+}
 
 /// Of each row the numbers from `first` to `last`.
 void append(std::vector<double>& to, const Table& table, std::size_t first, std::size_t last) {
@@ -191,6 +225,7 @@ Seen lookAtMachine(Run& run, PictureResult& picture) try {
   const std::size_t coordinates = 3 * seen.skeleton.points.size();
   append(places.nominal, nominal, 0, coordinates);
   append(places.axes, nominal, coordinates, nominal.outputs);
+  lookAlongProfiles(run, seen, picture);
   return seen;
 } catch (const std::bad_alloc&) {  // the answers are worth more than a picture
   picture = {};

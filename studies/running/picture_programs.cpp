@@ -42,6 +42,15 @@ Seen whatIsSeen(const Machine& machine) {
     std::ranges::copy(axesOf(moved, skeleton), std::back_inserter(all));
     return all;
   });
+  const auto isProfile = [](const Skeleton::Part& part) { return part.kind == Skeleton::Kind::profile; };
+  const auto profiles = static_cast<std::size_t>(std::ranges::count_if(skeleton.parts, isProfile));
+  if (profiles == 0) return seen;
+  seen.heights = recordedOf(machine, profiles, [&](const Moved& moved) {
+    std::vector<Recorded> all;
+    for (const Skeleton::Part& part : skeleton.parts)
+      if (isProfile(part)) all.push_back(moved.output(part.height));
+    return all;
+  });
   return seen;
 }
 

@@ -17,6 +17,7 @@ struct Seen {
   std::vector<double> at;          ///< s: those times
   Program positions, velocities;   ///< x, y, z of every point [m, m/s]
   Program drawn;                   ///< positions, then the unit vectors of the axes
+  Program heights;                 ///< of the profiles, in their order [m]
   bool isEnclosed = false;         ///< the places of all points are to be bounded
 
   bool empty() const { return skeleton.parts.empty(); }
@@ -27,6 +28,8 @@ struct Seen {
 inline constexpr std::size_t mostSeenTimes = 301, mostSeenPlaces = 3000, leastSeenTimes = 31;
 /// Samples whose motions are seen.
 inline constexpr std::size_t seenSamples = 6;
+/// To either side of a profile's point, where its height is told.
+inline constexpr std::size_t seenSteps = 50;
 /// Of more moving points no places are enclosed.
 inline constexpr std::size_t mostEnclosedPoints = 120;
 

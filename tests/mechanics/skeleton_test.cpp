@@ -191,6 +191,122 @@ TEST(Skeleton, ShowsWhatTurnsAboutItselfAsAWheel) {
   EXPECT_EQ(&skeleton.parts[skeleton.axes[4].part], wheels[1]);
 }
 
+std::vector<Skeleton::Part> partsOfKind(const Skeleton& skeleton, Kind kind) {
+  std::vector<Skeleton::Part> parts;
+  for (const Skeleton::Part& part : skeleton.parts)
+    if (part.kind == kind) parts.push_back(part);
+  return parts;
+}
+
+std::vector<std::string> axesOfPart(const Skeleton& skeleton, const std::string& name) {
+  std::vector<std::string> axes;
+  for (const Skeleton::JointAxis& axis : skeleton.axes)
+    if (skeleton.parts[axis.part].name == name) axes.push_back(axis.name);
+  return axes;
+}
+
+TEST(Skeleton, ShowsFrictionThatIsThere) {
+  Mechanism m;
+  m.add(Prismatic{"slide", "inertial", "cart", axisY});
+  m.add(Revolute{"hinge", "cart", "arm", axisX});
+  m.add(JointFriction{"rubbing", "slide", 3.0});
+  m.add(JointFriction{"oil", "hinge", 0.0, 0.1});
+  m.add(SmoothedJointFriction{"brake", "hinge.angle", 2.0, 0.0, 0.01});
+  m.add(JointFriction{"none", "hinge", 0.0, 0.0});
+  const auto frictions = partsOfKind(skeletonOf(m), Kind::friction);
+  ASSERT_EQ(frictions.size(), 3u);
+  EXPECT_EQ(frictions[0].name, "rubbing");
+  EXPECT_EQ(frictions[0].slides, 1);
+  EXPECT_EQ(frictions[1].name, "oil");
+  EXPECT_EQ(frictions[2].name, "brake");
+  EXPECT_EQ(frictions[2].turns, 1);
+}
+
+/// Wheels tell of a gear where one body carries both joints, or where one turns and the other slides.
+TEST(Skeleton, ShowsGearsAsWheelsWhereThoseTellWhatTheyDo) {
+  Mechanism m;
+  m.add(Revolute{"motor", "inertial", "M", axisX});
+  m.add(Link{"housing", "inertial", "H", {0.0, 0.3, 0.0}});
+  m.add(Revolute{"output", "H", "O", axisX});
+  m.add(Revolute{"wrist", "O", "W", axisX});
+  m.add(Prismatic{"rack", "inertial", "R", axisY});
+  m.add(Prismatic{"follower", "inertial", "F", axisZ});
+  m.add(Coupling{"pair", "output", "motor", -0.5});
+  m.add(Coupling{"mimic", "wrist", "motor", 2.0});
+  m.add(Coupling{"pinion", "rack", "motor", -0.04});
+  m.add(Coupling{"lever", "follower", "rack", 3.0});
+  const Skeleton skeleton = skeletonOf(m);
+  const auto gears = partsOfKind(skeleton, Kind::gear);
+  ASSERT_EQ(gears.size(), 4u);
+  EXPECT_EQ(gears[0].turns, 2);
+  EXPECT_EQ(skeleton.points[gears[0].from].name, "inertial");
+  EXPECT_EQ(skeleton.points[gears[0].to].name, "H");
+  EXPECT_TRUE(isEqual(m.rangeOf(gears[0].ratio), Interval(-0.5)));
+  EXPECT_THAT(axesOfPart(skeleton, "pair"),
+              ElementsAre("pair.motor.axle", "pair.motor.spoke", "pair.output.axle", "pair.output.spoke"));
+  EXPECT_THAT(axesOfPart(skeleton, "mimic"), ElementsAre()) << "the wrist hangs on what the motor turns";
+  EXPECT_THAT(axesOfPart(skeleton, "pinion"),
+              ElementsAre("pinion.rack.axis", "pinion.motor.axle", "pinion.motor.spoke"));
+  EXPECT_TRUE(isEqual(m.rangeOf(gears[2].radius), Interval(-0.04)));
+  EXPECT_EQ(skeleton.points[gears[2].from].name, "R");
+  EXPECT_EQ(skeleton.points[gears[2].to].name, "inertial");
+  EXPECT_THAT(axesOfPart(skeleton, "lever"), ElementsAre());
+}
+
+TEST(Skeleton, ShowsThePlanesThatAreTouched) {
+  Mechanism m;
+  m.add(Prismatic{"slope", "inertial", "S", axisX});
+  m.add(Free{.name = "flight", .from = "inertial", .to = "ball"});
+  PlaneContact contact;
+  contact.name = "floor";
+  contact.from = "S";
+  contact.to = "ball";
+  contact.normal = Axis(0, 3, 4);
+  contact.radius = 0.1;
+  contact.stiffness = 100.0;
+  contact.fromPoint = {0.0, 0.0, -1.0};
+  m.add(contact);
+  RollingWheel coin;
+  coin.name = "coin";
+  coin.from = "inertial";
+  coin.to = "rim";
+  coin.radius = 0.2;
+  m.add(coin);
+  const Skeleton skeleton = skeletonOf(m);
+  const auto planes = partsOfKind(skeleton, Kind::plane), shapes = partsOfKind(skeleton, Kind::shape);
+  ASSERT_EQ(planes.size(), 2u);
+  EXPECT_EQ(skeleton.points[planes[0].from].name, "floor.from_point");
+  EXPECT_EQ(skeleton.points[planes[0].to].name, "ball");
+  EXPECT_THAT(axesOfPart(skeleton, "floor"), ElementsAre("floor.normal"));
+  EXPECT_EQ(skeleton.points[planes[1].to].name, "rim");
+  ASSERT_EQ(shapes.size(), 1u) << "a wheel is seen as that";
+  EXPECT_EQ(shapes[0].name, "floor");
+  EXPECT_EQ(shapes[0].from, planes[0].to);
+}
+
+/// Where a slide is driven and a speed is given: what turns, stands still or lies along the way is no road.
+TEST(Skeleton, ShowsARoadWhereADriveSaysSo) {
+  Mechanism m;
+  m.add(Prismatic{"lift", "inertial", "ground", axisZ});
+  m.add(Prismatic{"slide", "ground", "cart", axisX});
+  m.add(Revolute{"cam", "cart", "K", axisY});
+  m.add(Drive{"road", "lift", Expression::parse("0.1 m*sin(3 rad/s*t)"), {5.0, Axis(-1, 0, 0)}});
+  m.add(Drive{"shaker", "slide", Expression::parse("0.1 m*sin(3 rad/s*t)")});
+  m.add(Drive{"turning", "cam", Expression::parse("3 rad/s*t"), {5.0}});
+  m.add(Prismatic{"post", "inertial", "top", Axis(0, 0, -2)});
+  m.add(Drive{"upwards", "post", Expression::parse("0.1 m*sin(3 rad/s*t)"), {5.0, axisZ}});
+  const Skeleton skeleton = skeletonOf(m);
+  const auto roads = partsOfKind(skeleton, Kind::profile);
+  ASSERT_EQ(roads.size(), 1u);
+  EXPECT_EQ(roads[0].name, "road");
+  EXPECT_EQ(roads[0].height, "lift.displacement");
+  EXPECT_EQ(skeleton.points[roads[0].to].name, "ground");
+  EXPECT_TRUE(isEqual(m.rangeOf(roads[0].speed), Interval(5.0)));
+  EXPECT_THAT(axesOfPart(skeleton, "road"), ElementsAre("road.up", "road.along"));
+  const auto along = std::ranges::find(skeleton.axes, std::string("road.along"), &Skeleton::JointAxis::name);
+  EXPECT_EQ(along->axis.direction()[0], -1);
+}
+
 /// Two arms that a pin holds together at a point of one of them, and a rod from there to the ground.
 TEST(Skeleton, ShowsWhereLoopsClose) {
   Mechanism m;

@@ -46,7 +46,8 @@ TEST(Vectors, NumbersAreWrittenAsTheScreenReadsThem) {
 }
 
 /// A machine in space whose tip is unknown at the second time, as is a sample at the third, and a pin's axis. A wheel
-/// turns at its elbow, a damper stands beside its spring, a motor and a spring at its shoulder.
+/// turns at its elbow, a damper stands beside its spring, a motor and a spring at its shoulder. A belt leads from there
+/// to the wall; a road, one place of which is unknown, and a plane lie beneath its tip.
 Scene scene() {
   PictureResult machine = example::machine(true, 3).picture;
   Places& p = machine.places;
@@ -56,13 +57,25 @@ Scene scene() {
   machine.parts.push_back({"motor", "motor", PartKind::motor, 0, 0, 1});
   machine.parts.push_back({"return", "joint-spring", PartKind::spring, 0, 0, 1});
   for (const char* name : {"rotor.axle", "rotor.spoke"}) machine.axes.push_back({name, wheel});
+  for (const PartInfo& part :
+       {PartInfo{"belt", "coupling", PartKind::gear, 0, 3, 2},
+        PartInfo{"floor", "plane-contact", PartKind::plane, 3, 2}, PartInfo{"road", "drive", PartKind::profile, 3, 2}})
+    machine.parts.push_back(part);
+  machine.parts[wheel + 4].ratio = 2;
+  for (const char* name : {"belt.first.axle", "belt.first.spoke", "belt.second.axle", "belt.second.spoke"})
+    machine.axes.push_back({name, wheel + 4});
+  machine.axes.push_back({"floor.normal", wheel + 5});
+  for (const char* name : {"road.up", "road.along"}) machine.axes.push_back({name, wheel + 6});
+  p.step = {-1, 0, 1};
+  machine.profiles = {{"road", wheel + 6, 0.5, {0.1, 0, -0.1, 0.05, 0, NAN, 0, 0, 0.2}}};
   for (const std::size_t row : {2, 1, 0}) {
     const double turn = 0.5 + static_cast<double>(row);
-    const std::vector<double> directions{1, 0, 0, 0, std::cos(turn), std::sin(turn)};
+    const std::vector<double> directions{
+        1, 0, 0, 0, std::cos(turn), std::sin(turn), 1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0.6, 0.8, 0, 0, 1, 0, 1, 0};
     p.axes.insert(p.axes.begin() + static_cast<std::ptrdiff_t>(6 * row + 6), directions.begin(), directions.end());
   }
   const std::size_t row = 3 * machine.points.size();
-  p.nominal[row + 6] = p.lower[row + 7] = p.samples[2 * row + 4] = p.axes[12] = NAN;
+  p.nominal[row + 6] = p.lower[row + 7] = p.samples[2 * row + 4] = p.axes[3 * machine.axes.size()] = NAN;
   return sceneOf(machine);
 }
 

@@ -303,7 +303,9 @@ inline Results sampleResults() {
                       std::vector<double>(24, 0.125),
                       {0, 0, 0, 0, 0.2, -0.5, 0, 0, 0, nan, nan, nan},
                       {0, 0, 0, 0, 0.4, -0.3, 0, 0, 0, nan, nan, nan},
-                      std::vector<double>(12, 0.01)};
+                      std::vector<double>(12, 0.01),
+                      {-1, 0, 1}};
+  r.picture.profiles = {{"road", 1, 0.5, {-0.1, 0, 0.1, nan, 0, 0.2}}};
   r.limits = {1800, 8e9, 1200, 5e9, 18};
   r.cpu = 2.25;
   r.memory = 1.5e9;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iomanip>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@ namespace {
 using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -140,6 +142,177 @@ TEST(MachinePicture, ShowsWheelsAndWhatTurnsThem) {
   m.parts[1].radius = 0;
   EXPECT_EQ(count(drawn(m), "class=\"wheel\""), 0u);
   EXPECT_THAT(drawn(m), Not(HasSubstr("r=\"2.5\"")));
+}
+
+/// Two joints of one body, 0.6 m apart, about x.
+PictureResult geared(double ratio) {
+  PictureResult m = moving({{0, 0, 0}, {0, 0, 0}});
+  m.points = {{"inertial", true, true}, {"H", true, true}};
+  m.places.nominal = {0, 0, 0, 0.2, 0.6, 0, 0, 0, 0, 0.2, 0.6, 0};
+  m.parts = {{"motor", "revolute", PartKind::joint, 0, 0, 1}, {"output", "revolute", PartKind::joint, 1, 1, 1}};
+  m.parts.push_back({"pair", "coupling", PartKind::gear, 0, 1, 2});
+  m.parts.back().ratio = ratio;
+  m.axes = {{"motor.axis", 0},       {"output.axis", 1},      {"pair.motor.axle", 2},
+            {"pair.motor.spoke", 2}, {"pair.output.axle", 2}, {"pair.output.spoke", 2}};
+  for (int row = 0; row < 2; ++row)
+    for (const double e : {1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1, 0}) m.places.axes.push_back(e);
+  return m;
+}
+
+/// Radii are those of pitch circles: they touch where joints turn against each other, and have the ratio.
+TEST(MachinePicture, ShowsGearsAsWheelsOfTheirRatio) {
+  const auto sizes = [](const Scene& scene) {
+    std::vector<double> radii;
+    for (const Shape& shape : scene.shapes)
+      if (shape.form == Shape::Form::wheel) radii.push_back(shape.size / scene.view.scale);
+    return radii;
+  };
+  const Scene meshing = sceneOf(geared(-2));
+  ASSERT_EQ(sizes(meshing).size(), 2u);
+  EXPECT_NEAR(sizes(meshing)[0], 0.4, 1e-3);
+  EXPECT_NEAR(sizes(meshing)[1], 0.2, 1e-3);
+  EXPECT_EQ(count(drawn(geared(-2)), "class=\"belt\""), 0u);
+  EXPECT_EQ(count(drawn(geared(-2)), "class=\"load\""), 0u);
+  const Scene belt = sceneOf(geared(0.5));
+  ASSERT_EQ(sizes(belt).size(), 2u);
+  EXPECT_NEAR(2 * sizes(belt)[0], sizes(belt)[1], 2e-3);
+  EXPECT_LT(sizes(belt)[0] + sizes(belt)[1], 0.6) << "they do not touch";
+  EXPECT_EQ(count(drawn(geared(0.5)), "class=\"belt\""), 1u);
+  PictureResult against = geared(0.5);  // about opposite axes
+  for (const std::size_t row : {0, 1}) against.places.axes[18 * row + 12] = -1;
+  EXPECT_EQ(count(drawn(against), "class=\"belt\""), 0u);
+}
+
+/// A line and a sign where axes are not parallel, where joints stand on one axis, or where nothing is known of them.
+TEST(MachinePicture, ShowsOtherGearsBySigns) {
+  PictureResult bevel = geared(2), coaxial = geared(2), mimic = geared(2);
+  for (const std::size_t row : {0, 1}) bevel.places.axes[18 * row + 12] = 0, bevel.places.axes[18 * row + 14] = 1;
+  for (const std::size_t row : {0, 1}) coaxial.places.nominal[6 * row + 4] = 0;
+  mimic.axes.resize(2);
+  mimic.places.axes.resize(12);
+  for (const PictureResult& m : {bevel, coaxial, mimic}) {
+    EXPECT_EQ(count(drawn(m), "class=\"wheel gear\""), 0u);
+    EXPECT_EQ(count(drawn(m), "class=\"load\""), 1u);
+    EXPECT_EQ(count(drawn(m), "class=\"belt\""), 1u);
+    EXPECT_THAT(drawn(m), HasSubstr("pair (coupling)"));
+  }
+}
+
+TEST(MachinePicture, ShowsThePinionOfARack) {
+  PictureResult m = geared(-0.1);
+  m.parts[0] = {"rack", "prismatic", PartKind::joint, 0, 0, 0, 1};
+  m.parts[2].turns = 1;
+  m.parts[2].radius = 0.1;
+  m.axes = {
+      {"rack.axis", 0}, {"output.axis", 1}, {"pair.rack.axis", 2}, {"pair.output.axle", 2}, {"pair.output.spoke", 2}};
+  m.places.axes.clear();
+  for (int row = 0; row < 2; ++row)
+    for (const double e : {0, 1, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1}) m.places.axes.push_back(e);
+  const Scene scene = sceneOf(m);
+  const auto wheel = std::ranges::find(scene.shapes, Shape::Form::wheel, &Shape::form);
+  ASSERT_NE(wheel, scene.shapes.end());
+  EXPECT_EQ(wheel->to, 1u);
+  EXPECT_NEAR(wheel->size, 0.1 * scene.view.scale, 0.06);
+  for (const std::size_t row : {0, 1}) m.places.axes[15 * row + 6] = 1, m.places.axes[15 * row + 7] = 0;  // a screw
+  EXPECT_EQ(count(drawn(m), "class=\"wheel gear\""), 0u);
+}
+
+/// A motor, friction and a damper at one joint stand beside each other, whatever their order.
+TEST(MachinePicture, ShowsSignsBesideEachOther) {
+  PictureResult m = moving({{0, 0, 0}, {0, 0, 0}});
+  m.parts.push_back({"hinge", "revolute", PartKind::joint, 0, 0, 1});
+  m.parts.push_back({"drive", "motor", PartKind::motor, 0, 0, 1});
+  m.parts.push_back({"brake", "joint-friction", PartKind::friction, 0, 0, 1});
+  m.parts.push_back({"oil", "joint-spring", PartKind::damper, 0, 0, 1});
+  m.parts.push_back({"guide", "joint-friction", PartKind::friction, 0, 0, 0, 1});
+  const std::string svg = drawn(m);
+  for (const char* room : {"translate(-17 17)", "translate(17 17)", "translate(-17 -17)", "translate(0 27)"})
+    EXPECT_EQ(count(svg, room), 1u) << room;
+  EXPECT_EQ(count(svg, "class=\"load\""), 3u);
+  EXPECT_THAT(svg, AllOf(HasSubstr("brake (joint-friction)"), HasSubstr("oil (joint-spring)")));
+}
+
+/// The line of the road leads through the point that rides on it; no rail and no fixed ground are shown instead.
+TEST(MachinePicture, ShowsTheRoadBeneathAPoint) {
+  PictureResult m = moving({{0, 0, 1}, {0, 0, 1}});
+  m.points = {{"inertial", true, true}, {"ground", false, false}, {"body", false, false}};
+  m.places.nominal = {0, 0, 0, 0, 0, 0.1, 0, 0, 1.1, 0, 0, 0, 0, 0, 0.2, 0, 0, 1.2};
+  m.parts = {{"lift", "prismatic", PartKind::joint, 0, 1, 0, 1}, {"weight", "mass", PartKind::mass, 1, 2, 0, 0, 1}};
+  m.parts.push_back({"road", "drive", PartKind::profile, 0, 1});
+  m.axes = {{"lift.axis", 0}, {"road.up", 2}, {"road.along", 2}};
+  for (int row = 0; row < 2; ++row)
+    for (const double e : {0, 0, 1, 0, 0, 1, 1, 0, 0}) m.places.axes.push_back(e);
+  m.places.step = {-1, 0, 1};
+  m.profiles = {{"road", 2, 1, {-0.1, 0, 0.1, -0.2, 0, infinity}}};
+  const Scene scene = sceneOf(m);
+  const auto road = std::ranges::find(scene.shapes, Shape::Form::road, &Shape::form);
+  ASSERT_NE(road, scene.shapes.end());
+  const Sight at = sightOf(scene, scene.at(scene.nominal, 0, 1), {0, scene.view.right, scene.view.up});
+  std::ostringstream path;
+  const double way = road->size, up = 0.1 * scene.view.scale;
+  path << std::fixed << std::setprecision(0) << "M" << at.x - way;
+  const std::string d = attributesOf(scene, *road, {0, scene.view.right, scene.view.up})[0].second;
+  EXPECT_TRUE(d.starts_with(path.str())) << d;
+  double first = 0, second = 0, x = 0;
+  ASSERT_EQ(std::sscanf(d.c_str(), "M%lf %lfL%lf %lf", &x, &first, &x, &second), 4);
+  EXPECT_NEAR(x, at.x, 0.1);
+  EXPECT_NEAR(second, at.y, 0.1);
+  EXPECT_NEAR(first, at.y + up, 0.2);
+  const std::string later = attributesOf(scene, *road, {1, scene.view.right, scene.view.up})[0].second;
+  EXPECT_EQ(count(later, "L"), 1u) << "what is not known is not drawn: " << later;
+  const std::string svg = drawn(m);
+  EXPECT_EQ(count(svg, "class=\"ground\""), 0u);
+  EXPECT_EQ(count(svg, "class=\"rail\""), 0u);
+  EXPECT_EQ(count(svg, "slider"), 0u);
+}
+
+/// Each as far as halfway to the next: two that differ do not lie upon each other.
+TEST(MachinePicture, ShowsRoadsBesideEachOther) {
+  PictureResult m = moving({{0, 0, 1}});
+  m.points = {{"inertial", true, true}, {"rear", false, false}, {"front", false, false}};
+  m.places.nominal = {0, 0, 0, -1, 0, 0, 1, 0, 0};
+  m.parts = {{"rear road", "drive", PartKind::profile, 0, 1}, {"front road", "drive", PartKind::profile, 0, 2}};
+  m.axes = {{"rear.up", 0}, {"rear.along", 0}, {"front.up", 1}, {"front.along", 1}};
+  m.places.axes = {0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0};
+  m.places.step = {-1, -0.5, 0, 0.5, 1};
+  m.profiles = {{"rear road", 0, 2, {1, 2, 0, 3, 4}}, {"front road", 1, 2, {1, 2, 0, 3, 4}}};
+  const Scene scene = sceneOf(m);
+  ASSERT_EQ(scene.roads.size(), 2u);
+  const auto known = [](const std::vector<double>& heights) {
+    std::vector<int> which;
+    for (const double height : heights) which.push_back(std::isfinite(height) ? 1 : 0);
+    return which;
+  };
+  EXPECT_THAT(known(scene.roads[0]), ElementsAre(1, 1, 1, 1, 0));
+  EXPECT_THAT(known(scene.roads[1]), ElementsAre(0, 1, 1, 1, 1));
+}
+
+/// A line under a ball where it is seen from the edge, hatched below, a field where it is seen from above.
+TEST(MachinePicture, ShowsThePlaneBeneathAPoint) {
+  PictureResult m = moving({{0, 0.5, 1}, {0, 0.7, 1}});
+  m.points = {{"inertial", true, true}, {"ball", false, false}};
+  m.places.nominal = {0, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 0.7, 1};
+  m.parts = {{"flight", "free", PartKind::joint, 0, 1, 3, 3}, {"floor", "plane-contact", PartKind::plane, 0, 1}};
+  m.axes = {{"floor.normal", 1}};
+  m.places.axes = {0, 0, 1, 0, 0, 1};
+  const Scene scene = sceneOf(m);
+  ASSERT_TRUE(scene.view.isSideView);
+  const auto plane = std::ranges::find(scene.shapes, Shape::Form::plane, &Shape::form);
+  ASSERT_NE(plane, scene.shapes.end());
+  Stance stance{1, scene.view.right, scene.view.up};
+  const Sight floor = sightOf(scene, scene.at(scene.nominal, 1, 0), stance),
+              ball = sightOf(scene, scene.at(scene.nominal, 1, 1), stance);
+  double x = 0, y = 0;
+  const std::string edge = attributesOf(scene, *plane, stance)[0].second;
+  ASSERT_EQ(std::sscanf(edge.c_str(), "M%lf %lf", &x, &y), 2);
+  EXPECT_NEAR(x, ball.x - plane->size, 0.1);
+  EXPECT_NEAR(y, floor.y, 0.1);
+  EXPECT_EQ(count(edge, "M"), 1u + 6);
+  stance.right = {0, 1, 0};
+  stance.up = {-1, 0, 0};
+  const std::string above = attributesOf(scene, *plane, stance)[0].second;
+  EXPECT_EQ(count(above, "M"), 1u);
+  EXPECT_TRUE(above.ends_with("Z"));
 }
 
 TEST(MachinePicture, HoldsNothingThatIsFree) {

@@ -163,11 +163,13 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(r.uncertain[0], fields["/study/uncertain"]), padding);
   EXPECT_LE(longestGap(r.shapes[0], fields["/study/shapes"]), padding);
   const PictureResult& m = r.picture;
-  EXPECT_LE(longestGap(m, fields["/machine"], m.present, m.directions, m.points, m.parts, m.axes, m.places), padding);
+  EXPECT_LE(longestGap(m, fields["/machine"], m.present, m.directions, m.points, m.parts, m.axes, m.profiles, m.places),
+            padding);
   EXPECT_LE(longestGap(m.directions[0], fields["/machine/directions"]), padding);
   EXPECT_LE(longestGap(m.points[0], fields["/machine/points"]), padding);
   EXPECT_LE(longestGap(m.parts[0], fields["/machine/parts"]), padding);
   EXPECT_LE(longestGap(m.axes[0], fields["/machine/axes"]), padding);
+  EXPECT_LE(longestGap(m.profiles[0], fields["/machine/profiles"]), padding);
   EXPECT_LE(longestGap(m.places, fields["/machine/places"], m.places.present), padding);
   std::vector<Field> origin = fields["/"];
   origin.insert(origin.end(), fields["/study"].begin(), fields["/study"].end());

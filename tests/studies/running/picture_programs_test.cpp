@@ -190,6 +190,72 @@ samples = 8
   EXPECT_THAT(machine.points, IsEmpty());
 }
 
+/// What lies ahead by s is what the drive comes to s/v later, also behind the end of the motion, and ahead of its
+/// start.
+TEST(SeenMachine, TellsTheRoadAheadAndBehind) {
+  const Results results = seenResults(R"toml([study]
+analysis = "dynamics"
+horizon = 0.5
+output_step = 0.1
+[[mechanism.element]]
+type = "prismatic"
+name = "lift"
+from = "inertial"
+to = "ground"
+axis = "-z"
+[[mechanism.element]]
+type = "drive"
+name = "road"
+joint = "lift"
+position = "0.1 m*sin(3 rad/s*t)"
+profile_speed = "18 km/h"
+along = "y"
+[[mechanism.element]]
+type = "link"
+name = "wheel"
+from = "ground"
+to = "rest"
+vector = [0, 0, 0.5]
+[[mechanism.element]]
+type = "prismatic"
+name = "tyre"
+from = "rest"
+to = "axle"
+axis = "z"
+[[mechanism.element]]
+type = "mass"
+name = "body"
+at = "axle"
+mass = 20
+[[mechanism.element]]
+type = "joint-spring"
+name = "rubber"
+joint = "tyre"
+stiffness = 2e3
+[[uncertain]]
+quantity = "body.mass"
+interval = "± 1 %"
+[[output]]
+quantity = "tyre.displacement"
+[stochastic]
+samples = 8
+)toml");
+  const PictureResult& machine = results.picture;
+  ASSERT_EQ(machine.profiles.size(), 1u);
+  const ProfileInfo& road = machine.profiles[0];
+  EXPECT_EQ(machine.parts[road.part].kind, PartKind::profile);
+  EXPECT_EQ(road.name, "road");
+  EXPECT_DOUBLE_EQ(road.reach, 0.5) << "as far as the machine is large";
+  const Places& places = machine.places;
+  ASSERT_EQ(places.step.size(), 2 * seenSteps + 1);
+  ASSERT_EQ(road.heights.size(), places.time.size() * places.step.size());
+  for (std::size_t row = 0; row < places.time.size(); ++row)
+    for (std::size_t k = 0; k < places.step.size(); ++k) {
+      const double now = places.time[row], then = now + 0.5 * places.step[k] / 5.0;
+      EXPECT_NEAR(road.heights[row * places.step.size() + k], 0.1 * (std::sin(3 * then) - std::sin(3 * now)), 1e-15);
+    }
+}
+
 TEST(SeenMachine, OfManyPointsShowsFewerTimesAndEnclosesNone) {
   std::string text = sampleStudyWith("horizon = 0.5\noutput_step = 0.1", "horizon = 0.01\noutput_step = 0.0001");
   std::string more;
