@@ -227,6 +227,8 @@ class Fields {
   /// The same of what is known once the equations of motion are solved, an acceleration or a reaction
   /// (Assembler::measureSolved); no load may depend on it.
   virtual void measureSolved(const Word& word) { measure(word); }
+  /// The same of what positions and speeds alone tell, and none of the element's expressions, which may name it.
+  virtual void measureMotion(const Word& word) { measure(word); }
   /// The same of the length between two points, which lie apart at the start, or its direction is not determined.
   virtual void measureLength(const Word& word) { measure(word); }
 

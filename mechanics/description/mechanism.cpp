@@ -278,10 +278,11 @@ void Mechanism::addState(Named<State>& states, const std::string& name, const st
   states.add(std::move(state));
 }
 
-void Mechanism::addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved) {
+void Mechanism::addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved,
+                            bool isMotion) {
   if (unitOfMeasured(name) != nullptr || knows(name))
     refuse("the quantity " + inQuotes(name) + " of " + inQuotes(of) + " is defined twice");
-  measured_.add({name, unit, of, isSolved});
+  measured_.add({name, unit, of, isSolved, isMotion});
 }
 
 void Mechanism::measureModes() {
@@ -592,6 +593,7 @@ class Mechanism::Checker final : public Fields {
 
   void measure(const Word& word) override { m_.addMeasured(named(word), word.unit, element_); }
   void measureSolved(const Word& word) override { m_.addMeasured(named(word), word.unit, element_, true); }
+  void measureMotion(const Word& word) override { m_.addMeasured(named(word), word.unit, element_, false, true); }
   void measureLength(const Word& word) override {
     measure(word);
     m_.lengths_.push_back({named(word), type_, element_});
@@ -773,7 +775,7 @@ void Mechanism::checkSignals(const std::string& element) const {
   }
 }
 
-/// What an element measures may depend on all of its expressions.
+/// What an element measures may depend on all of its expressions, but for what the motion alone tells.
 void Mechanism::checkCycle(const Signal& signal) const {
   std::unordered_set<std::string> reached;
   std::vector<std::string> open = signal.expression.names();
@@ -781,7 +783,7 @@ void Mechanism::checkCycle(const Signal& signal) const {
     const std::string name = open.back();
     open.pop_back();
     const Measured* measured = measured_.find(name);
-    if (measured == nullptr || reached.contains(measured->element)) continue;
+    if (measured == nullptr || measured->isMotion || reached.contains(measured->element)) continue;
     if (measured->element == signal.element)
       throw WrongNumber(signal.name, "it depends on " + inQuotes(name) + ", which depends on it",
                         "a formula of "

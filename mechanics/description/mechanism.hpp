@@ -237,7 +237,8 @@ class Mechanism {
   };
   struct Measured {
     std::string name, unit, element;
-    bool isSolved;  ///< known once the equations of motion are solved
+    bool isSolved;          ///< known once the equations of motion are solved
+    bool isMotion = false;  ///< positions and speeds tell it, whatever its element's expressions are
   };
   /// Names of coordinates, of which one follows the other.
   struct Following {
@@ -256,7 +257,8 @@ class Mechanism {
   void checkFrame(const std::string& frame, const std::string& of) const;
   void addFrame(const std::string& from, const std::string& to, const std::string& of);
   void addState(Named<State>& states, const std::string& name, const std::string& unit, const Expression& initial);
-  void addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved = false);
+  void addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved = false,
+                   bool isMotion = false);
   void addSignal(Signal signal, Expression& expression);
   void drive(const std::string& coordinate, const std::string& by);
   void depend(const std::string& coordinate, const std::string& by);

@@ -15,7 +15,7 @@ void Motor::describe(Fields& f) {
   f.number({"friction", "N m s/rad", "viscous, on the rotor"}, friction);
   describeCoordinateLoad(f, kind);
   f.drawsMotor(joint);
-  f.measure({"rate", "rad/s", "of the rotor"});
+  f.measureMotion({"rate", "rad/s", "of the rotor; `moment` may depend on it"});
 }
 
 template <class S>

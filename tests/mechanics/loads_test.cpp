@@ -91,6 +91,28 @@ TEST(Motor, AddsItsRotorToTheJoint) {
   EXPECT_NEAR(assembly.output("hinge.reaction.moment.x"), 0.5 * assembly.output("hinge.acceleration"), 1e-13);
 }
 
+/// k (U - k n q̇)/R: what a motor of direct current does at a voltage U follows from its own speed. Power, which
+/// follows from that moment, is no ingredient of it.
+TEST(Motor, MayBeDrivenByItsOwnSpeed) {
+  const double k = 0.05, voltage = 12, resistance = 0.5, ratio = 20;
+  Mechanism m = disc();
+  m.add(Motor{"motor", "hinge",
+              Expression::parse("0.05 N m/ampere*(12 W/ampere - 0.05 J/ampere*motor.rate)/(0.5 W/ampere^2)"), ratio,
+              0.002});
+  m.check();
+  for (const double rate : {-3.0, 0.0, 1.5}) {
+    const double moment = k * (voltage - k * ratio * rate) / resistance;
+    EXPECT_NEAR(accelerationAt(m, 0.5, rate), ratio * moment / (0.5 + 0.002 * 400), 1e-11);
+  }
+  Mechanism wrong = disc();
+  wrong.add(Motor{"motor", "hinge", Expression::parse("1 N m - 1 s*motor.power"), ratio});
+  EXPECT_THROW(wrong.check(), WrongNumber);
+  Mechanism through = disc();  // by the way of another
+  through.add(Motor{"motor", "hinge", Expression::parse("1 s*other.power"), ratio});
+  through.add(Motor{"other", "hinge", Expression::parse("1 N m s*motor.rate + 1 s*motor.power"), ratio});
+  EXPECT_THROW(through.check(), WrongNumber);
+}
+
 /// dE/dt is the power of the motors, dampers and friction, in both formulations, on a tree of many joints.
 TEST(Motor, OnAnArmIsTheSameInBothFormulations) {
   Mechanism m = testing::spatialArm(Interval("0.8"));

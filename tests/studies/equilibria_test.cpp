@@ -226,6 +226,23 @@ TEST(Equilibria, OfAPendulumAreItsClosedForm) {
   }
 }
 
+/// A motor whose moment falls with its own speed damps what it turns: by d n²/(2 √(k I)).
+TEST(Equilibria, AreDampedByMotorsThatKnowTheirOwnSpeed) {
+  const std::string mechanism =
+      hinge("A", "inertial", "F") + element("mass", "disc", "at = \"F\"\nmass = 1\ninertia = [0.5, 0.5, 0.5]") +
+      element("joint-spring", "spring", "joint = \"A\"\nstiffness = 8") +
+      element("motor", "motor", "joint = \"A\"\nmoment = \"-0.0625 N m s/rad*motor.rate\"\nratio = 2");
+  const Results results =
+      run(readStudyText(studyOf(mechanism, uncertain("spring.stiffness", "± 2 %") + output("damping.1")), "s.toml"));
+  EXPECT_EQ(results.stochastic.failures, 0);
+  for (const double stiffness : {7.84, 8.0, 8.16}) {
+    const Precise damping = Precise(0.25) / (2 * sqrt(Precise(stiffness) * Precise(0.5)));
+    EXPECT_LE(Precise(found(results, 0).lower()), damping) << stiffness;
+    EXPECT_GE(Precise(found(results, 0).upper()), damping) << stiffness;
+  }
+  EXPECT_LT(width(found(results, 0)), 0.0013);
+}
+
 TEST(Equilibria, OfThinNumbersAreKnownToTheRounding) {
   const Results results =
       run(machineOf(studyOf(pendulum, output("A.angle") + output("frequency.1") + output("damping.1"))), {});

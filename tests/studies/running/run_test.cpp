@@ -14,6 +14,7 @@
 #include "studies/machine.hpp"
 #include "studies/running/replay.hpp"
 #include "studies/watch.hpp"
+#include "tests/analyses/reference.hpp"
 #include "tests/studies/sample_study.hpp"
 
 namespace gamut {
@@ -49,6 +50,55 @@ TEST(Machine, PutsStatesFirstAndFreeParametersBehindThem) {
   EXPECT_TRUE(isEqual(machine.box[1], Interval(0.5)));
   EXPECT_EQ(machine.motion.motion.f.parameters(), 2);
   EXPECT_EQ(machine.motion.nominal[2], 0.5);
+}
+
+/// I ω̇ = c - b ω: a motor of direct current, whose moment is of its own speed, comes to it as (c/b)(1 - e^(-b t/I)).
+TEST(Run, EnclosesAMotorThatKnowsItsOwnSpeed) {
+  const Study study = readStudyText(R"toml([study]
+analysis = "dynamics"
+horizon = 1
+output_step = 0.125
+[[mechanism.element]]
+type = "revolute"
+name = "shaft"
+from = "inertial"
+to = "rotor"
+axis = "x"
+[[mechanism.element]]
+type = "mass"
+name = "disc"
+at = "rotor"
+mass = 1
+inertia = [0.25, 0.2, 0.2]
+[[mechanism.element]]
+type = "motor"
+name = "motor"
+joint = "shaft"
+moment = "0.5 N m/ampere*(4 V - 0.5 V s/rad*motor.rate)/(2 Ohm)"
+ratio = 2
+[[uncertain]]
+quantity = "disc.inertia.xx"
+interval = "± 4 %"
+[[output]]
+quantity = "shaft.rate"
+[[output]]
+quantity = "motor.rate"
+[stochastic]
+samples = 64
+)toml",
+                                    "s.toml");
+  const Results results = run(study);
+  ASSERT_EQ(results.interval.reached, 1);
+  EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+  for (std::size_t i = 0; i < results.time.size(); ++i)
+    for (const double inertia : {0.24, 0.25, 0.26}) {
+      const Precise rate = 4 * (1 - exp(Precise(-0.5 * results.time[i]) / Precise(inertia)));
+      EXPECT_LE(Precise(results.interval.at.lower(i, 0)), rate) << results.time[i];
+      EXPECT_GE(Precise(results.interval.at.upper(i, 0)), rate) << results.time[i];
+      EXPECT_LE(Precise(results.interval.at.lower(i, 1)), 2 * rate);
+      EXPECT_GE(Precise(results.interval.at.upper(i, 1)), 2 * rate);
+    }
+  EXPECT_LT(results.interval.at.upper(4, 0) - results.interval.at.lower(4, 0), 0.13);
 }
 
 TEST(Machine, NestsTheLevelsFromTheSupportsToTheCores) {
