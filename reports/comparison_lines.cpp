@@ -71,7 +71,9 @@ std::string sentence(const Difference& d) {
   if (d.word == Difference::Word::error)
     return "One of both is wrong: what A proves contradicts what B proves of the same motion.";
   if (d.word == Difference::Word::incompatible)
-    return "The models contradict each other: what is proved of one cannot hold of the other. That is no error.";
+    return "A and B are proved to differ: what is proved of one cannot hold of the other. Both may be right, since "
+           "they "
+           "are of different models or values.";
   if (d.word == Difference::Word::worse) return "Nothing contradicts, but B is worse than A by more than is tolerated.";
   return d.contradictions.compared == 0 ? "There is nothing that could contradict, and nothing is worse."
                                         : "Nothing contradicts, and nothing is worse than is tolerated.";
@@ -236,8 +238,17 @@ std::string comparisonNotes(const Difference& difference, const Results& first, 
                    shared.otherRequirements.first);
   text += onlyText("B", shared.otherOutputs.second, shared.otherTimes.second, shared.otherAnswers.second,
                    shared.otherRequirements.second);
+  for (const TwoUnits& output : shared.converted)
+    text += fmt::format("  output {} is in {} in B; it is compared in {}\n", output.name, output.unit.second,
+                        output.unit.first);
+  for (const TwoUnits& output : shared.incomparable)
+    text += fmt::format("  output {} is in {} in A and in {} in B, so not compared\n", output.name, output.unit.first,
+                        output.unit.second);
+  const auto isConverted = [&](const std::string& name) {
+    return std::ranges::find(shared.converted, name, &TwoUnits::name) != shared.converted.end();
+  };
   for (std::size_t k = 0; k < shared.outputs.size(); ++k)
-    if (relation.isSameMotion && relation.isSameOutput[k] == 0)
+    if (relation.isSameMotion && relation.isSameOutput[k] == 0 && !isConverted(changes.outputs[k].name))
       text += fmt::format("  output {} is another quantity: {} in A, {} in B\n", changes.outputs[k].name,
                           first.outputs[shared.outputs[k].first].quantity,
                           second.outputs[shared.outputs[k].second].quantity);

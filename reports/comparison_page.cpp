@@ -20,6 +20,7 @@
 #include "reports/requirements.hpp"
 #include "reports/summary.hpp"
 #include "reports/words.hpp"
+#include "studies/comparing/common_units.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/told.hpp"
 
@@ -105,7 +106,11 @@ class ComparisonPage {
  public:
   ComparisonPage(const Difference& difference, const Results& first, const Results& second,
                  const Both<std::string>& files)
-      : difference_(difference), a_(first), b_(second), files_(files) {
+      : difference_(difference),
+        converted_(inUnitsOf(first, second)),
+        a_(first),
+        b_(converted_ ? *converted_ : second),
+        files_(files) {
     for (const Match& match : difference.shared.outputs)
       if (!isMargin(a_, match.first) && !isMargin(b_, match.second)) outputs_.push_back(beside(match));
   }
@@ -255,7 +260,12 @@ class ComparisonPage {
     return changesHtml(html);
   }
   static std::string changesHtml(const std::string& items) {
-    return items.empty() ? "" : "<ul class=\"changes\" aria-label=\"What changed from A to B\">\n" + items + "</ul>\n";
+    constexpr const char* widths =
+        "<p class=\"hint\">Times here: the widest that B is, by the widest that A is, whenever that is. What "
+        "is called worse below compares both at one time.</p>\n";
+    if (items.empty()) return {};
+    return "<ul class=\"changes\" aria-label=\"What changed from A to B\">\n" + items + "</ul>\n" +
+           (items.find(" times)") == std::string::npos ? "" : widths);
   }
 
   std::string firstHtml() const {
@@ -470,6 +480,7 @@ class ComparisonPage {
   }
 
   const Difference& difference_;
+  const std::optional<Results> converted_;  // the second, in units of the first
   const Results &a_, &b_;
   const Both<std::string>& files_;
   std::vector<OutputBeside> outputs_;

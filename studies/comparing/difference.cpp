@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "studies/comparing/common_units.hpp"
 
 namespace gamut {
 namespace {
@@ -41,9 +44,14 @@ std::vector<Excess> excessesOf(const Changes& changes, const Tolerances& toleran
 
 }  // namespace
 
-Difference compareResults(const Results& first, const Results& second, const Tolerances& tolerances) {
+Difference compareResults(const Results& first, const Results& asStated, const Tolerances& tolerances) {
   Difference difference;
+  const std::optional<Results> converted = inUnitsOf(first, asStated);
+  const Results& second = converted ? *converted : asStated;
   difference.shared = sharedOf(first, second);
+  for (std::size_t i = 0; i < second.outputs.size(); ++i)
+    if (const OutputInfo& now = second.outputs[i], &before = asStated.outputs[i]; now.unit != before.unit)
+      difference.shared.converted.push_back({now.name, {now.unit, before.unit}});
   difference.relation = relationOf(first, second, difference.shared);
   difference.changes = changesOf(first, second, difference.shared, difference.relation.isSameQuestion());
   difference.contradictions = contradictionsOf(first, second, difference.shared, difference.relation);

@@ -48,7 +48,8 @@ struct Difference {
 template <>
 inline constexpr std::array<std::string_view, 4> words<Difference::Word>{"agree", "worse", "incompatible", "error"};
 
-/// Throws NotComparable where both have nothing in common, std::invalid_argument as findVerdict does.
+/// In the units of the first. Throws NotComparable where both have nothing in common, std::invalid_argument as
+/// findVerdict does.
 Difference compareResults(const Results& first, const Results& second, const Tolerances& tolerances = {});
 
 }  // namespace gamut

@@ -66,11 +66,17 @@ Shared sharedOf(const Results& first, const Results& second) {
     const bool isOtherUnit = first.outputs[output.first].unit != second.outputs[output.second].unit;
     return demand != demandOf(second, output.second) || (!demand.empty() && isOtherUnit);
   });
-  for (const auto& [one, other] : shared.outputs)
-    if (const std::string& unit = first.outputs[one].unit, &otherUnit = second.outputs[other].unit; unit != otherUnit)
-      throw NotComparable(
-          fmt::format("the output '{}' is in {} in the first and in {} in the second; expected one unit",
-                      first.outputs[one].name, unit, otherUnit));
+  std::erase_if(shared.outputs, [&](const Match& output) {
+    const OutputInfo &one = first.outputs[output.first], &other = second.outputs[output.second];
+    if (one.unit == other.unit) return false;
+    shared.incomparable.push_back({one.name, {one.unit, other.unit}});
+    return true;
+  });
+  if (shared.outputs.empty() && !shared.incomparable.empty())
+    throw NotComparable(
+        fmt::format("the output '{}' is in {} in the first and in {} in the second; expected units of one kind",
+                    shared.incomparable.front().name, shared.incomparable.front().unit.first,
+                    shared.incomparable.front().unit.second));
   if (shared.outputs.empty())
     throw NotComparable("no output is in both; expected results of studies with outputs of the same name");
   shared.times = sharedNumbers(first.time, second.time);

@@ -71,7 +71,9 @@ TEST_F(CompareCommand, TellsAProofOfAnErrorFromModelsThatDiffer) {
   run("c", sampleStudyWith("-9.81", "-8.5"));
   const Outcome models = gamut("compare a.h5 c.h5");
   EXPECT_EQ(models.exitCode, 1);
-  EXPECT_THAT(models.out, HasSubstr("of another motion: gravity.z is -9.81 m/s^2 in A, -8.5 m/s^2 in B.\nThe models"));
+  EXPECT_THAT(
+      models.out,
+      HasSubstr("of another motion: gravity.z is -9.81 m/s^2 in A, -8.5 m/s^2 in B.\nA and B are proved to differ"));
 }
 
 TEST_F(CompareCommand, PrintsOneJsonObject) {
@@ -91,8 +93,6 @@ TEST_F(CompareCommand, PrintsOneJsonObject) {
 
 TEST_F(CompareCommand, RefusesInOneLine) {
   run("a", sampleStudy);
-  run("b",
-      sampleStudyWith("name = \"angle\"\nquantity = \"hinge.angle\"", "name = \"angle\"\nquantity = \"hinge.rate\""));
   writeResults(sampleResults(), folder_.path("c.h5"));
   folder_.write("t.toml", "widr = 1\n");
   const auto refuses = [&](const std::string& arguments, const std::string& line) {
@@ -104,14 +104,34 @@ TEST_F(CompareCommand, RefusesInOneLine) {
   refuses("a.h5 none.h5", "none.h5: does not exist; expected a results file written by gamut run");
   refuses("a.toml a.h5", "a.toml: not a Gamut results file; expected a results file written by gamut run");
   refuses("a.h5", "gamut: B.h5 is missing; see gamut compare --help");
-  refuses("a.h5 b.h5",
-          "gamut: a.h5 and b.h5: the output 'angle' is in rad in the first and in rad/s in the second; expected one "
-          "unit");
+  run("d", sampleStudyWith("name = \"angle\"\nquantity = \"hinge.angle\"\n[[output]]\nquantity = \"tip.position.z\"",
+                           "name = \"angle\"\nquantity = \"hinge.rate\""));
+  refuses("a.h5 d.h5",
+          "gamut: a.h5 and d.h5: the output 'angle' is in rad in the first and in rad/s in the second; expected units "
+          "of one kind");
   refuses("a.h5 c.h5",
           "gamut: a.h5 and c.h5: no output is in both; expected results of studies with outputs of the same name");
   refuses("a.h5 a.h5 --tolerances t.toml",
           "t.toml:1:1: unknown key 'widr'; expected 'wider'? (one of: wider, gap, overestimation, shorter, cpu, "
           "output)");
+}
+
+/// Another unit is no other quantity: of one kind it is compared, of another that output alone is left out.
+TEST_F(CompareCommand, ComparesInTheUnitsOfTheFirst) {
+  run("a", sampleStudy);
+  run("b", sampleStudyWith("quantity = \"tip.position.z\"", "quantity = \"tip.position.z\"\nunit = \"mm\""));
+  const Outcome compared = gamut("compare a.h5 b.h5");
+  EXPECT_EQ(compared.exitCode, 0) << compared.out;
+  EXPECT_THAT(compared.out, HasSubstr("output tip.position.z is in mm in B; it is compared in m\n"));
+  EXPECT_THAT(compared.out, HasSubstr("tip.position.z (m)"));
+  EXPECT_EQ(compared.out.find("not compared"), std::string::npos);
+  EXPECT_THAT(gamut("compare b.h5 a.h5").out, HasSubstr("output tip.position.z is in m in B; it is compared in mm\n"));
+  EXPECT_EQ(gamut("report a.h5 b.h5").exitCode, 0);
+  EXPECT_THAT(folder_.read("a-and-b.html"), HasSubstr("it is compared in m"));
+  run("c",
+      sampleStudyWith("name = \"angle\"\nquantity = \"hinge.angle\"", "name = \"angle\"\nquantity = \"hinge.rate\""));
+  EXPECT_THAT(gamut("compare a.h5 c.h5").out,
+              HasSubstr("output angle is in rad in A and in rad/s in B, so not compared\n"));
 }
 
 TEST_F(CompareCommand, ReportPutsTwoBesideEachOther) {

@@ -1,12 +1,16 @@
 // Two results: what contradicts and is a proof of an error, what only says that the models differ, and what is worse.
 #include <gmock/gmock.h>
 
+#include <gmpxx.h>
+
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 
+#include "studies/comparing/common_units.hpp"
 #include "studies/comparing/difference.hpp"
 #include "studies/study.hpp"
 #include "tests/studies/sample_results.hpp"
@@ -182,8 +186,40 @@ TEST(Difference, IsRefusedWhereNothingIsInBoth) {
     EXPECT_THROW(compareResults(sound(), second), NotComparable);
   };
   refuses([](Results& r) { r.outputs[0].name = "a", r.outputs[1].name = "b"; });
-  refuses([](Results& r) { r.outputs[0].unit = "mm"; });
+  refuses([](Results& r) { r.outputs[0].unit = "kg", r.outputs[1].unit = "kg"; });
   refuses([](Results& r) { r.time = {0.001, 0.002, 0.003}; });
+}
+
+/// Bounds go outward, so that no set that holds a number loses it: what 1000/3 mm is in m has no double.
+TEST(Difference, IsTakenInUnitsOfOneKind) {
+  Results first = sound(), second = first;
+  first.outputs[0].unit = "m", second.outputs[0].unit = "mm";
+  const double inMillimetres = 1000.0 / 3;
+  for (std::vector<double>* list : {&second.interval.at.lower.data, &second.interval.at.upper.data})
+    for (std::size_t i = 0; i < list->size(); i += 2) (*list)[i] = inMillimetres;
+  const std::optional<Results> converted = inUnitsOf(first, second);
+  ASSERT_TRUE(converted);
+  EXPECT_EQ(converted->outputs[0].unit, "m");
+  const Bounds &before = second.interval.at, &now = converted->interval.at;
+  for (std::size_t i = 0; i < before.lower.times; ++i) {
+    const mpq_class lower(now.lower(i, 0)), upper(now.upper(i, 0)), exact = mpq_class(inMillimetres) / 1000;
+    EXPECT_TRUE(lower < exact);
+    EXPECT_TRUE(upper > exact);
+    EXPECT_LE(now.upper(i, 0) - now.lower(i, 0), 1e-15);
+  }
+  EXPECT_DOUBLE_EQ(converted->stochastic.mean(0, 0), second.stochastic.mean(0, 0) / 1000);
+  EXPECT_TRUE(std::isnan(converted->distribution.value(0, 0, 0)));
+  EXPECT_FALSE(inUnitsOf(first, first));
+  const Difference difference = compareResults(first, second);
+  ASSERT_EQ(difference.shared.converted.size(), 1U);
+  EXPECT_EQ(difference.shared.converted[0].unit.second, "mm");
+  EXPECT_EQ(difference.shared.outputs.size(), 2U);
+  second.outputs[0].unit = "kg";
+  EXPECT_FALSE(inUnitsOf(first, second));
+  const Shared shared = sharedOf(first, second);
+  EXPECT_EQ(shared.outputs.size(), 1U);
+  ASSERT_EQ(shared.incomparable.size(), 1U);
+  EXPECT_EQ(shared.incomparable[0].name, first.outputs[0].name);
 }
 
 TEST(Difference, CountsWhatTheTolerancesSay) {
