@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -22,8 +21,6 @@
 namespace gamut::commands {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ExtendArguments : RunArguments {
   std::string input, results, report;
   std::size_t samples = 0;
@@ -37,11 +34,8 @@ OutputFile reserveResults(const ExtendArguments& arguments) {
 
 OutputFile reserveReport(const ExtendArguments& arguments) {
   const std::string results = arguments.results.empty() ? arguments.input : arguments.results;
-  const std::string report =
-      arguments.report.empty() ? fs::path(results).replace_extension(".html").string() : arguments.report;
-  if (fs::absolute(results).lexically_normal() == fs::absolute(report).lexically_normal())
-    throw UsageError(report + ": is both results and report; expected two names");
-  return reserve(report, arguments.input, arguments.force || (arguments.results.empty() && arguments.report.empty()));
+  return reserve(pageBeside(results, arguments.report), arguments.input,
+                 arguments.force || (arguments.results.empty() && arguments.report.empty()));
 }
 
 void noteChanges(const ExtendArguments& arguments, const Results& before, const Extension& extension) {

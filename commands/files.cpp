@@ -52,6 +52,14 @@ Study studyOf(const Results& results, const std::string& path) {
   return readStudyText(results.studyText, results.studyFile + " in " + path, elementTypes(), files);
 }
 
+std::string pageBeside(const std::string& results, const std::string& asked) {
+  namespace fs = std::filesystem;
+  const std::string page = asked.empty() ? fs::path(results).replace_extension(".html").string() : asked;
+  if (fs::absolute(results).lexically_normal() == fs::absolute(page).lexically_normal())
+    throw UsageError(page + ": is both results and report; expected two names");
+  return page;
+}
+
 std::string shellQuoted(const std::string& path) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+/,:@%";
   if (path.find_first_not_of(plain) == std::string::npos) return path;

@@ -30,6 +30,9 @@ Machine readMachine(const std::string& path, bool isQuiet, std::optional<double>
 /// UsageError if they make no sense.
 Study studyOf(const Results& results, const std::string& path);
 
+/// The page of results: what was asked for, or else "arm.html" of arm.h5. Throws UsageError if that is the results.
+std::string pageBeside(const std::string& results, const std::string& asked = {});
+
 /// As a shell takes it.
 std::string shellQuoted(const std::string& path);
 

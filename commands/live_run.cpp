@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -16,7 +15,9 @@
 #include <utility>
 
 #include "commands/exit_codes.hpp"
+#include "commands/files.hpp"
 #include "reports/report.hpp"
+#include "studies/atomic_file.hpp"
 #include "studies/printable.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/running/dead_point.hpp"
@@ -169,14 +170,17 @@ bool isReadable(int pipe) {
 
 }  // namespace
 
-std::string pageBeside(const std::string& results) {
-  return std::filesystem::path(results).replace_extension(".html").string();
-}
-
 LiveRun::LiveRun(LiveArguments arguments) : arguments_(std::move(arguments)), files_(arguments_.study) { begin(); }
 
+LiveRun::~LiveRun() { endRun(); }
+
+void LiveRun::endRun() {
+  run_.reset();
+  if (!arguments_.results.empty()) removeAbandonedBeside(arguments_.results);
+}
+
 void LiveRun::begin() {
-  run_.reset();  // what it is doing is of no use any more
+  endRun();  // what it is doing is of no use any more
   task_ = "equations";
   fraction_ = 0;
   fault_.clear();
@@ -203,7 +207,7 @@ void LiveRun::listen() {
     try {
       goesOn = run_->read(most);
     } catch (const std::length_error&) {
-      run_.reset();
+      endRun();
       return fail(
           fmt::format("{}: a page is greater than 1 GiB; expected fewer outputs or output times", arguments_.study));
     }
@@ -215,7 +219,7 @@ void LiveRun::listen() {
   if (goesOn) return;
   const bool isWhole = run_->isWhole();
   const int signal = run_->signal();
-  run_.reset();
+  endRun();
   task_.clear();
   if (!isWhole && fault_.empty())
     fail(fmt::format("{}: the run failed{}", arguments_.study, signal > 0 ? fmt::format(" (signal {})", signal) : ""));

@@ -25,6 +25,9 @@ class LiveRun {
  public:
   /// Begins the first run.
   explicit LiveRun(LiveArguments arguments);
+  ~LiveRun();
+  LiveRun(const LiveRun&) = delete;
+  LiveRun& operator=(const LiveRun&) = delete;
 
   /// Takes what the run says; ends it and begins another if a file was saved.
   void look();
@@ -43,6 +46,8 @@ class LiveRun {
 
  private:
   void begin();
+  /// Whatever it does, with what it has not written to the end.
+  void endRun();
   void listen();
   void take(std::string_view kind, std::string text);
   void fail(const std::string& why);
@@ -59,8 +64,5 @@ class LiveRun {
   std::vector<std::string> notes_;
   std::vector<News> news_;
 };
-
-/// "arm.html" of arm.h5: where the page of these results is.
-std::string pageBeside(const std::string& results);
 
 }  // namespace gamut

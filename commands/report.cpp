@@ -44,13 +44,13 @@ std::string pageOfBoth(const ReportArguments& arguments) {
 
 ExitCode report(const ReportArguments& arguments) {
   const std::string path = arguments.page.empty() ? nameOfPage(arguments) : arguments.page;
+  if (std::error_code none; !arguments.other.empty() && std::filesystem::equivalent(path, arguments.other, none))
+    throw UsageError(path + ": cannot be written; it is the input");
+  OutputFile file = reserve(path, arguments.results, arguments.force);
   const std::string page = !arguments.other.empty()         ? pageOfBoth(arguments)
                            : isSweepFile(arguments.results) ? renderSweep(readSweep(arguments.results))
                                                             : renderReport(readResults(arguments.results));
-  std::error_code none;
-  if (!arguments.other.empty() && std::filesystem::equivalent(path, arguments.other, none))
-    throw UsageError(path + ": cannot be written; it is the input");
-  reserve(path, arguments.results, arguments.force).write(page);
+  file.write(page);
   fmt::print("{}\n", path);
   return done;
 }

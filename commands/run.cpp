@@ -32,9 +32,7 @@ struct RunCommandArguments : RunArguments {
 
 void nameOutputs(RunCommandArguments& arguments) {
   if (arguments.results.empty()) arguments.results = nameOfStudy(arguments.study) + ".h5";
-  if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
-  if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
-    throw UsageError(arguments.report + ": is both results and report; expected two names");
+  arguments.report = pageBeside(arguments.results, arguments.report);
 }
 
 CheckpointPlan planOf(const Study& study, const RunOptions& options, const RunCommandArguments& arguments) {

@@ -171,9 +171,7 @@ ExitCode exitCodeOf(const SweepResults& sweep) {
 
 void nameOutputs(SweepArguments& arguments) {
   if (arguments.results.empty()) arguments.results = nameOfStudy(arguments.study) + ".sweep.h5";
-  if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
-  if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
-    throw UsageError(arguments.report + ": is both results and report; expected two names");
+  arguments.report = pageBeside(arguments.results, arguments.report);
   for (const std::string& output : {arguments.results, arguments.report})
     for (const std::string& input : {arguments.study, arguments.points})
       if (std::error_code error; fs::equivalent(output, input, error))

@@ -30,9 +30,8 @@ void refuseWhatCannotBe(const ViewArguments& arguments) {
   if (arguments.study == "-") throw UsageError("standard input cannot be watched; expected a study file");
   textOfStudy(arguments.study);
   if (arguments.results.empty()) return;
-  const std::string page = pageBeside(arguments.results);
-  if (page == arguments.results) throw UsageError(page + ": is both results and report; expected two names");
-  for (const std::string& path : {arguments.results, page}) reserve(path, arguments.study, arguments.force);
+  for (const std::string& path : {arguments.results, pageBeside(arguments.results)})
+    reserve(path, arguments.study, arguments.force);
 }
 
 Reply replyOf(const LiveRun& live, std::string_view path) {

@@ -148,6 +148,8 @@ void removeUnfinished() noexcept {
       ::unlink(one.part.data());
 }
 
+void removeAbandonedBeside(const std::string& path) { removeAbandoned(folderOf(endOfLinks(path))); }
+
 OutputFile::OutputFile(const std::string& path, Existing existing) : path_(path), existing_(existing) {
   const fs::path end = endOfLinks(path), folder = folderOf(end);
   target_ = end.string();

@@ -63,6 +63,9 @@ class OutputFile {
 /// alone. Safe in a handler of signals.
 void removeUnfinished() noexcept;
 
+/// Removes what writers that are dead left in the folder of `path`: after a process of ours was killed.
+void removeAbandonedBeside(const std::string& path);
+
 /// An older file at `path` is replaced in one step. Throws WriteError.
 void replaceFile(const std::string& path, std::string_view content);
 

@@ -146,6 +146,12 @@ TEST_F(CompareCommand, ReportPutsTwoBesideEachOther) {
   EXPECT_EQ(gamut("report a.h5 b.h5").exitCode, 2) << "it is there";
   EXPECT_EQ(gamut("report a.h5 b.h5 -o page.html").out, "page.html\n");
   EXPECT_EQ(gamut("report a.h5 b.h5 -o b.h5 --force").error, "gamut: b.h5: cannot be written; it is the input\n");
+  folder_.write("torn.h5", "no results");  // what cannot be written is refused before anything is read
+  EXPECT_EQ(gamut("report a.h5 torn.h5 -o a.h5 --force").error, "gamut: a.h5: cannot be written; it is the input\n");
+  EXPECT_EQ(gamut("report torn.h5 a.h5 -o a.h5 --force").error, "gamut: a.h5: cannot be written; it is the input\n");
+  EXPECT_THAT(gamut("report torn.h5 -o page.html").error, StartsWith("gamut: page.html: exists already"));
+  EXPECT_EQ(gamut("report torn.h5 -o other.html").exitCode, 2);
+  EXPECT_FALSE(folder_.has("other.html"));
   run("c", sampleStudyWith("name = \"angle\"\nquantity = \"hinge.angle\"\n[[output]]\nquantity = \"tip.position.z\"",
                            "name = \"other\"\nquantity = \"hinge.angle\""));
   const Outcome nothing = gamut("report a.h5 c.h5");

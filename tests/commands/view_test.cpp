@@ -395,6 +395,24 @@ TEST_F(View, EndsARunWhoseStudyIsSavedAgain) {
   EXPECT_THAT(report(), HasSubstr("<h1>Short</h1>"));
 }
 
+/// A file that a run had begun to write when it was killed, as atomic_file.cpp calls it.
+TEST_F(View, LeavesNothingOfARunThatItEnds) {
+  const std::string left = ".kept.h5.gamut-part";
+  folder_.write("s.toml", unending());
+  start({"-o", "kept.h5"});
+  const auto isAtWork = [](const Json& s) { return s["task"] == "samples" && s["fraction"] > 0; };
+  ASSERT_TRUE(stateThat(isAtWork).is_object());
+  folder_.write(left, "half of the results");
+  folder_.write("s.toml", unending() + "\n");
+  ASSERT_TRUE(stateThat([&](const Json& s) { return !isAtWork(s); }).is_object());
+  ASSERT_TRUE(stateThat(isAtWork).is_object());
+  EXPECT_FALSE(folder_.has(left)) << "the next run has written nothing yet";
+  folder_.write(left, "half of the results");
+  view_->signalAfter(0, SIGTERM);
+  EXPECT_EQ(view_->wait(), 0);
+  EXPECT_FALSE(folder_.has(left));
+}
+
 TEST_F(View, ShowsWhatIsKnownBeforeTheEnd) {
   folder_.write("s.toml", unending());
   start();
