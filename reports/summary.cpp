@@ -290,11 +290,15 @@ struct SummaryPart {
 
 class SummaryParts {
  public:
-  explicit SummaryParts(std::size_t columns) : columns_(columns) {}
+  /// `reason`: why the run stopped. Where what leads says it, nothing else says it again.
+  SummaryParts(std::size_t columns, std::string reason) : columns_(columns), reason_(": " + reason) {}
 
   /// A sentence, or several; nothing of an empty one.
   void add(const std::string& sentence, std::size_t indent = 0) {
-    if (!sentence.empty()) all.back().items.push_back(wrapped(sentence, indent, columns_));
+    if (sentence.empty()) return;
+    const bool leads = all.size() == 1 && all.front().items.empty();
+    if (leads) isReasonSaid_ = reason_.size() > 2 && sentence.find(reason_) != std::string::npos;
+    all.back().items.push_back(wrapped(leads ? sentence : withoutReason(sentence), indent, columns_));
   }
   /// What is told only where all is.
   void addBesides(const std::string& sentence, std::size_t indent, bool isAllTold) {
@@ -323,6 +327,11 @@ class SummaryParts {
   std::size_t untold = 0;  ///< rows of what is told only where all is
 
  private:
+  std::string withoutReason(std::string sentence) const {
+    for (std::size_t at = 0; isReasonSaid_ && (at = sentence.find(reason_, at)) != std::string::npos;)
+      sentence.erase(at, reason_.size());
+    return sentence;
+  }
   static std::vector<std::string> linesOf(std::string_view text) {
     std::vector<std::string> lines;
     for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
@@ -333,6 +342,8 @@ class SummaryParts {
   }
 
   const std::size_t columns_;
+  const std::string reason_;
+  bool isReasonSaid_ = false;
 };
 
 /// How many items of each part are shown in so many rows: first of each part what it keeps in any case, then what room
@@ -487,7 +498,7 @@ std::string textSummary(const Results& results) {
 
 std::string runSummary(const Results& results, const Verdict& verdict, const std::string& lead,
                        const SummaryStyle& style) {
-  SummaryParts parts(style.columns);
+  SummaryParts parts(style.columns, results.stopped);
   addAnswers(results, verdict, lead, style, parts);
   const auto addLines = [&](std::size_t least, const std::string& text) {
     parts.begin(least);
@@ -509,7 +520,7 @@ std::string runSummary(const Results& results, const Verdict& verdict, const std
 
 std::string verdictSummary(const Results& results, const Verdict& verdict, const std::string& lead,
                            const SummaryStyle& style) {
-  SummaryParts parts(style.columns);
+  SummaryParts parts(style.columns, results.stopped);
   addAnswers(results, verdict, lead, style, parts);
   return fitted(parts, style);
 }
@@ -546,7 +557,7 @@ std::string infoText(const Results& results) {
 }
 
 std::string shortInfo(const Results& results, const std::string& verdict, const SummaryStyle& style) {
-  SummaryParts parts(style.columns);
+  SummaryParts parts(style.columns, "");
   parts.begin(1);
   parts.addLines(infoText(results));
   parts.begin(2);

@@ -506,6 +506,21 @@ TEST(RunSummary, HasTwentyRowsAtMostAndSaysHowManyThereAre) {
   for (style = {}; style.rows > 2; --style.rows) EXPECT_EQ(rowsOf(ranSummary(results, style)), style.rows);
 }
 
+TEST(RunSummary, SaysOnceWhyTheRunStopped) {
+  const Results results = sampleResults();
+  Verdict verdict = judge(results);
+  verdict.sentence = "Nothing could be compared: the run was interrupted.";
+  verdict.notes = {"3 of 8 samples were taken: the run was interrupted."};
+  SummaryStyle verbose;
+  verbose.isVerbose = true;
+  const auto told = [&](const std::string& lead) { return runSummary(results, verdict, lead, verbose); };
+  const std::string once = told("The computation is incomplete: the run was interrupted.");
+  EXPECT_THAT(once, AllOf(HasSubstr("is incomplete: the run was interrupted.\n"),
+                          HasSubstr("Nothing could be compared.\n  3 of 8 samples were taken.\n")));
+  EXPECT_EQ(once.find(": the run was interrupted"), once.rfind(": the run was interrupted"));
+  EXPECT_THAT(told("Lead."), HasSubstr("  3 of 8 samples were taken: the run was interrupted.\n"));
+}
+
 TEST(RunSummary, SaysAllWhereThereIsRoom) {
   const Results results = sampleResults();
   SummaryStyle verbose, roomy;
