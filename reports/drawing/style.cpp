@@ -22,7 +22,7 @@ std::string swatch(const Layer& layer) {
     return fmt::format("border:1px solid var(--{0});box-shadow:inset 0 0 0 2px var(--paper),inset 0 0 0 3px var(--{0})",
                        layer.name);
   if (layer.style.fill == 0 && layer.kind == Layer::Kind::band && !layer.style.isDashed)
-    return fmt::format("border:{}px solid var(--{})", std::max(1.0, layer.style.width), layer.name);
+    return fmt::format("border:{}px solid var(--{})", layer.style.width > 1 ? 2 : 1, layer.name);
   if (layer.style.fill == 0) return "height:0;border-radius:0;border-top:" + line;
   return fmt::format("background:var(--{}-fill)", layer.name) + (layer.style.width > 0 ? ";border:" + line : "");
 }

@@ -1,5 +1,6 @@
 // What to do about a requirement that can fail: what each quantity alone does to what it limits, at its worst instant.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,19 @@ std::string textOf(const ProvedValue& value, double widest) {
   return lower == upper ? lower : lower + " to " + upper;
 }
 
+/// "is 1.234 m", one number, where hardly anything is open; else between which it lies, and whose doing that is.
+std::string nominalText(const Results& results, const ProvedValue& nominal, double effect, const std::string& unit) {
+  constexpr double little = 0.05;  // of what quantities do
+  if (nominal.upper - nominal.lower <= little * effect) return "is " + inUnit(numberText(middleOf(nominal), 5), unit);
+  std::vector<std::string> varying;
+  for (const UncertainInfo& quantity : results.uncertain)
+    if (variesInTime(quantity)) varying.push_back(quantity.name);
+  const auto [lower, upper] = outwardText(nominal.lower, nominal.upper, 4);
+  return fmt::format("lies between {} and {}, as {},", lower, inUnit(upper, unit),
+                     varying.empty() ? "closely as its bounds are proved"
+                                     : fmt::format("{} may vary in time", fmt::join(varying, ", ")));
+}
+
 /// "± 1.2 % would do", "not alone"; empty where neither is proved.
 std::string doingAlone(const UncertainInfo& quantity, const RequirementResult& requirement, std::size_t number) {
   if (number >= requirement.aloneLower.size()) return {};
@@ -135,13 +149,13 @@ std::string whatToDo(const Results& results, const RequirementResult& requiremen
   }
   return fmt::format(
       "<details class=\"causes\"{}><summary>What to do: whose tolerance matters</summary>\n"
-      "<p class=\"hint\">\u201c{}\u201d{} is {} with nominal values. Each bar: one quantity alone goes from the least "
+      "<p class=\"hint\">\u201c{}\u201d{} {} with nominal values. Each bar: one quantity alone goes from the least "
       "(outline) "
       "to the greatest (filled) of its values; numbers below are proved. Right: its share in the spread{}.</p>\n"
       "<ol class=\"tornado\">\n{}<li "
       "class=\"ruler\"><span></span><div>{}</div><b></b><b></b></li>\n</ol>{}</details>\n",
       isOpen ? " open" : "", escapeHtml(output.name), when,
-      escapeHtml(inUnit(textOf(all.nominal, greatest), output.unit)),
+      escapeHtml(nominalText(results, all.nominal, greatest, output.unit)),
       requirement.aloneLower.empty() ? ""
                                      : ", and the tolerance with which the requirement is proved to be met though all "
                                        "others stay as they are (\u201cnot alone\u201d: no tolerance does that)",

@@ -10,6 +10,7 @@
 
 #include "reports/approaches.hpp"
 #include "reports/drawing/paper.hpp"
+#include "reports/page/glossary.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/table.hpp"
 #include "reports/plain.hpp"
@@ -127,7 +128,7 @@ constexpr Essential essential[] = {
     {"probable", Essential::Of::samples, "blue band: where most of them lie"},
     {"possible", Essential::Of::cuts, "orange: where it can lie, the narrower the more possible"},
     {"median", Essential::Of::all, "blue line: half of the simulated cases lie below"},
-    {"limit", Essential::Of::all, "red: the limit"}};
+    {"limit", Essential::Of::all, "dashed red: the limit"}};
 
 bool has(const Plot& plot, std::string_view layer) {
   return std::ranges::find(plot.layers, layer, &Layer::name) != plot.layers.end();
@@ -324,10 +325,11 @@ std::string firstSection(const Report& report) {
   const Results& results = report.results;
   const Foremost foremost = foremostOf(results);
   const bool isThere = foremost.output < results.outputs.size() && !results.time.empty();
+  const std::string cards = requirementCards(report);
   return fmt::format(
              "<section id=\"found\" class=\"first {}\" aria-label=\"What was found\">\n<h2 class=\"lead\">{}</h2>\n",
              tone(results, report.verdict), escapeHtml(plainSummary(results, report.verdict, foremost.output))) +
-         requirementCards(report) + verdictCard(report.verdict) +
+         cards + verdictCard(report.verdict) + termsOf("found", cards) +
          (report.verdict.word == Agreement::outside ? "" : approachesList(results)) +
          (isThere ? plotOfForemost(results, foremost) + ranking(results, foremost.output) : "") + "</section>\n";
 }

@@ -15,13 +15,34 @@ struct Term {
 };
 
 constexpr Term terms[] = {
-    {"guaranteed", "guaranteed", "outputs numbers",
+    {"case", "case", "found",
+     "One set of values of all uncertain quantities within their stated tolerances. \u201cIn every case\u201d means: "
+     "whatever they are."},
+    {"simulated", "simulated", "found",
+     "Cases whose values were drawn from the stated distributions, or are extreme, and whose motions were followed one "
+     "by "
+     "one."},
+    {"proved", "proved", "found",
+     "Computed with bounds that hold for all values of the stated intervals at once, rounding errors of the computer "
+     "included."},
+    {"corner", "corner", "found",
+     "An extreme combination of the tolerances: each quantity has the least or the greatest of its values."},
+    {"shrink", "tolerances shrink", "found",
+     "All quantities deviate from their nominal values by no more than this share of what is stated."},
+    {"share", "share in the spread", "found",
+     "The part of the output\u2019s variance that is gone where this quantity alone is known exactly (Sobol\u2019 "
+     "index)."},
+    {"possibility", "possibility", "found",
+     "How possible it is, by the stated membership functions, that a requirement is violated: from 0 to 1. It is no "
+     "probability."},
+    {"necessity", "necessity", "found", "1 less the possibility of the opposite: 1 where nothing else is possible."},
+    {"guaranteed", "guaranteed", "found outputs numbers",
      "Proved: whatever values the uncertain quantities have in their stated intervals, the output does not leave these "
      "bounds. Rounding errors of the computer are covered, too."},
-    {"probable", "probable", "outputs",
+    {"probable", "probable", "found outputs",
      "Where most outputs lie if the quantities follow their stated distributions: from simulated samples, or, where "
      "bounds are drawn, proved."},
-    {"possible", "possible", "outputs",
+    {"possible", "possible", "found outputs",
      "Where the output lies if each quantity is as possible as its stated membership function says."},
     {"alpha-cut", "alpha-cut", "outputs memberships",
      "All values whose membership is at least alpha: at 0 the widest, at 1 the values that are fully possible."},
@@ -31,7 +52,7 @@ constexpr Term terms[] = {
     {"median", "median", "outputs", "Half of the samples lie below it, half above."},
     {"overestimation", "overestimation", "outputs numbers",
      "How many times as wide the guaranteed bounds are as what samples span. 1 is the best: nothing is given away."},
-    {"margin", "margin", "numbers",
+    {"margin", "margin", "found numbers",
      "How far a requirement is from its limit: above zero it is met, below it is violated."},
     {"cumulative", "cumulative probability", "probabilities",
      "The probability that the output is not above a value: it rises from 0 to 1."},

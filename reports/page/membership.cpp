@@ -81,7 +81,7 @@ std::string membershipFigures(const Results& results, const Detail& detail) {
   std::vector<double> times;
   for (const std::size_t row : rows) times.push_back(results.time[row]);
   std::string html =
-      "<p class=\"hint\">How possible a value is. Orange: proved, the ends of the alpha-cuts joined by lines; the pale "
+      "<p class=\"hint\">How possible a value is. Solid: proved, the ends of the alpha-cuts joined by lines; the pale "
       "stairs above them hold between the levels, too.";
   if (!fuzzy.inner.empty())
     html += " Dashed: what samples of at least that membership reached" + methodText(results) + ".";

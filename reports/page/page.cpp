@@ -99,6 +99,18 @@ std::string summaryLine(const Results& results) {
   return line;
 }
 
+/// "1 of 3 can fail", "fails in every case": of requirements of which so many do.
+std::string failingText(const Results& results, std::size_t failing) {
+  const auto always =
+      static_cast<std::size_t>(std::ranges::count(results.requirements, Decision::violated, &RequirementResult::word));
+  const std::size_t all = results.requirements.size();
+  const std::string verb = always < failing ? "can fail"
+                           : failing == 1   ? "fails"
+                                            : "fail",
+                    when = always < failing ? "" : " in every case";
+  return all == 1 ? verb + when : fmt::format("{} of {} {}{}", failing, all, verb, when);
+}
+
 std::string chipsOf(const Report& report) {
   const Results& results = report.results;
   std::string html;
@@ -109,7 +121,7 @@ std::string chipsOf(const Report& report) {
           results.requirements, [&](const RequirementResult& r) { return severityOf(r) <= severity; }));
     };
     const std::size_t failing = upTo(simulated), undecided = upTo(open) - failing;
-    const auto [tone, words] = failing > 0 ? std::pair("violated", fmt::format("{} of {} can fail", failing, all))
+    const auto [tone, words] = failing > 0 ? std::pair("violated", failingText(results, failing))
                                : undecided > 0
                                    ? std::pair("open", fmt::format("{} of {} not decided", undecided, all))
                                    : std::pair("met", all == 1 ? std::string("met in every case")

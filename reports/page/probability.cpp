@@ -75,7 +75,7 @@ PlotSection probabilityPlots(const Results& results, const Detail& detail) {
   if (isBounded) {
     section.html =
         "<p class=\"hint\">How probable it is that an output is not above a value: it is proved to lie in the "
-        "blue band; the black line is the share of the samples";
+        "band; the thin line is the share of the samples";
     if (d.band > 0) section.html += fmt::format(", the dashed lines their 95 % band (± {})", atMostText(d.band, 2));
     section.html += ".</p>\n";
     if (!d.why.empty())

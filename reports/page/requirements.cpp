@@ -59,10 +59,11 @@ std::vector<Mark> marksOf(const Results& results, const Worst& at) {
   const auto low = std::ranges::find(probabilities, 0.05), high = std::ranges::find(probabilities, 0.95);
   const bool areQuantilesThere = results.stochastic.quantiles.size() == probabilities.size();
   if (low != probabilities.end() && high != probabilities.end() && areQuantilesThere)
-    add("mark-probable", "5 to 95 % of the samples (blue)", results.stochastic.quantiles[low - probabilities.begin()],
+    add("mark-probable", "5 to 95 % of the samples (filled)", results.stochastic.quantiles[low - probabilities.begin()],
         results.stochastic.quantiles[high - probabilities.begin()]);
   if (results.fuzzy.present && !results.fuzzy.outer.empty())
-    add("mark-core", "most possible (orange)", results.fuzzy.outer.back().lower, results.fuzzy.outer.back().upper);
+    add("mark-core", "most possible (inner outline)", results.fuzzy.outer.back().lower,
+        results.fuzzy.outer.back().upper);
   return marks;
 }
 

@@ -253,10 +253,10 @@ std::string statisticsHint(const Results& results) {
   const bool isKnown =
       !s.meanError.empty() && std::ranges::any_of(s.meanError.data, [](double x) { return std::isfinite(x); });
   if (!isKnown)
-    return "Mean (black) and quantiles (blue) of the samples, as deviations from the mean; how far those of all "
+    return "Mean (in the middle) and quantiles of the samples, as deviations from the mean; how far those of all "
            "motions lie from them is not known.";
   return fmt::format(
-      "Mean (black) and quantiles (blue), as deviations from the mean of the samples: those of all motions, "
+      "Mean (in the middle) and quantiles, as deviations from the mean of the samples: those of all motions, "
       "distributed as the samples are, lie in the bands with 95 % confidence, each number by itself (from 16 "
       "independent batches{}).",
       s.plan == Placement::random ? "; quantiles from the samples' order" : "");

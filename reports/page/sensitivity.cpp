@@ -206,12 +206,15 @@ std::string derivativeUnit(const Results& results, std::size_t output, std::size
   return named(results.outputs[output].unit) + " per " + named(Told(results.uncertain[quantity]).unit());
 }
 
-/// Colours say which quantity it is, the same in all figures.
+/// Colours say which quantity it is, the same in all figures. The first three look different to everybody; violet,
+/// green and red, which are blue, black and orange to some, are dashed where these are solid.
 Layer layerOf(const Results& results, std::size_t quantity) {
-  constexpr std::array colours{colour::blue, colour::orange, colour::violet, colour::green, colour::red, colour::black};
+  constexpr std::array colours{colour::blue, colour::orange, colour::black, colour::violet, colour::red, colour::green};
+  const bool isLikeAnother = quantity % colours.size() >= colours.size() / 2,
+             isSecondRound = quantity / colours.size() % 2 == 1;
   return {.name = fmt::format("cause{}", quantity),
           .words = results.uncertain[quantity].name,
-          .style = {colours[quantity % colours.size()], 0.35, 1.4, quantity % (2 * colours.size()) >= colours.size()},
+          .style = {colours[quantity % colours.size()], 0.35, 1.4, isLikeAnother != isSecondRound},
           .isProved = true};
 }
 

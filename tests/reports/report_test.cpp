@@ -660,6 +660,23 @@ TEST(Report, LinksToItsParts) {
   Results results = withMargins();
   const std::string page = renderReport(results);
   EXPECT_THAT(page, HasSubstr("<a class=\"chip violated\" href=\"#found\">1 of 2 can fail</a>"));
+  const auto chip = [](const Results& of) {
+    const std::string text = renderReport(of), begin = "<a class=\"chip violated\" href=\"#found\">";
+    const auto from = text.find(begin) + begin.size();
+    return text.substr(from, text.find('<', from) - from);
+  };
+  Results others = results;
+  for (RequirementResult& requirement : others.requirements) requirement.word = Decision::violated;
+  EXPECT_EQ(chip(others), "2 of 2 fail in every case");
+  others.requirements[0].word = Decision::partly;
+  EXPECT_EQ(chip(others), "2 of 2 can fail");
+  others.requirements[0].word = Decision::met;
+  EXPECT_EQ(chip(others), "1 of 2 fails in every case");
+  others.requirements.resize(1);
+  others.requirements[0].word = Decision::violated;
+  EXPECT_EQ(chip(others), "fails in every case");
+  others.requirements[0].word = Decision::partly;
+  EXPECT_EQ(chip(others), "can fail");
   std::size_t links = 0;
   for (std::size_t at = 0; (at = page.find("href=\"#", at)) != std::string::npos; ++links) {
     at += 7;

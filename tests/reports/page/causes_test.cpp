@@ -112,6 +112,18 @@ TEST(Causes, LeadWithTheQuantityThatMattersMost) {
   EXPECT_NEAR(number("missed", "width", 0), number("at-greatest", "x", mass), 0.2);  // 0.75 is the limit, too
 }
 
+/// Nominal values give one number, but for what the proof, or what varies in time, leaves open.
+TEST(Causes, SayWhatIsOpenAtNominalValues) {
+  Results results = tilted();
+  EXPECT_THAT(renderReport(results),
+              HasSubstr("lies between 0.9374 and 1.063 rad, as closely as its bounds are proved, "
+                        "with nominal values"));
+  results.uncertain[2].distribution = "varies in time";
+  EXPECT_THAT(renderReport(results), HasSubstr(", as colour may vary in time, with nominal values"));
+  results.surrogate.radius = {1e-3, std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_THAT(renderReport(results), HasSubstr(" is 1 rad with nominal values"));
+}
+
 TEST(Causes, SayWhichToleranceWouldDoAlone) {
   Results results = tilted();
   EXPECT_THAT(renderReport(results), Not(HasSubstr("not alone")));

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -23,6 +24,30 @@ TEST(Glossary, ExplainsTheWordsThatASectionUses) {
   EXPECT_THAT(told, Not(HasSubstr("term-alpha-cut")));
   EXPECT_EQ(termsOf("outputs", "nothing of all this"), "");
   EXPECT_EQ(termsOf("elsewhere", "guaranteed"), "");
+}
+
+/// What the cards of requirements say is explained beside them.
+TEST(Glossary, ExplainsTheWordsOfTheFirstCards) {
+  Results results = example::pendulum(61, 2);
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = "floor";
+  requirement.statement = "always a > 0.75";
+  requirement.word = Decision::partly;
+  requirement.margin = 1;
+  requirement.until = results.horizon;
+  requirement.factor = 0.5;
+  requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  results.margins.push_back({1, "a", true, "0.75 rad", "rad", true, 0, 0.75, true});
+  const std::string page = renderReport(results);
+  const auto cards = page.find("<ul class=\"requirements\""), terms = page.find("<p class=\"terms\">", cards);
+  ASSERT_NE(terms, std::string::npos);
+  EXPECT_LT(terms, page.find("class=\"output foremost\""));
+  const std::string told = page.substr(terms, page.find("</p>", terms) - terms);
+  for (const char* id : {"shrink", "guaranteed", "probable", "possible"})
+    EXPECT_THAT(told, HasSubstr("popovertarget=\"term-" + std::string(id) + "\"")) << id;
+  EXPECT_THAT(told, Not(HasSubstr("term-quantile")));
+  EXPECT_THAT(termsOf("found", "66 of 1024 simulated cases"),
+              ::testing::AllOf(HasSubstr("term-case\">case<"), HasSubstr("term-simulated\">simulated<")));
 }
 
 TEST(Glossary, HasOneMeaningOfEachWordThatThePageExplains) {

@@ -53,6 +53,32 @@ TEST(SensitivitySection, HasEstimatesWithTheirIntervalsBesideWhatIsProved) {
   EXPECT_THAT(sensitivities(results), AllOf(Not(HasSubstr("estimate\"")), Not(HasSubstr("independent samples"))));
 }
 
+/// Violet is blue to those who see no green: what looks alike to some is dashed.
+TEST(SensitivitySection, TellsQuantitiesApartWithoutColours) {
+  Results results = example::sensitive();
+  SensitivityResult& s = results.sensitivity;
+  DerivativeResult& derivatives = results.of<DerivativeResult>();
+  for (const char* name : {"third", "fourth"}) {
+    results.uncertain.push_back(results.uncertain.back());
+    results.uncertain.back().name = name;
+  }
+  for (Grid* grid :
+       {&s.first.lower, &s.first.upper, &s.total.lower, &s.total.upper, &s.firstSampled, &s.totalSampled, &s.firstError,
+        &s.totalError, &s.pinched, &results.fuzzy.influence.share, &derivatives.lower, &derivatives.upper}) {
+    Grid wider({grid->extents[0], 2, 4});
+    for (std::size_t i = 0; i < 2 * grid->extents[0]; ++i)
+      for (std::size_t q = 0; q < 4; ++q) wider(i / 2, i % 2, q) = (*grid)(i / 2, i % 2, q % 2);
+    *grid = wider;
+  }
+  const std::string page = renderReport(results);
+  for (const char* solid : {"0", "1", "2"})
+    EXPECT_EQ(
+        count(page, std::string(".drawing .cause") + solid + "{stroke:var(--cause" + solid + ");stroke-width:1.4}"), 1u)
+        << solid;
+  EXPECT_EQ(count(page, ".drawing .cause3{stroke:var(--cause3);stroke-width:1.4;stroke-dasharray:"), 1u);
+  EXPECT_EQ(count(page, ".swatch.cause3{background:var(--cause3-fill);border:1.5px dashed var(--cause3)}"), 1u);
+}
+
 TEST(SensitivitySection, RanksTheQuantitiesOverTime) {
   const std::string text = sensitivities(example::sensitive());
   EXPECT_THAT(text,
