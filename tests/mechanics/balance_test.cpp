@@ -3,12 +3,12 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/description/refusal.hpp"
 #include "mechanics/elements/all.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/evaluation/evaluate.hpp"
 #include "tests/mechanics/four_bar.hpp"
 
@@ -45,7 +45,7 @@ TEST(Balance, HoldsWhatTheSolvedEquationsFind) {
     unit[3 + k] = 1;
     byMultiplier.col(static_cast<Eigen::Index>(k)) = rowsAt(unit) - open;
   }
-  const Eigen::Vector2d multipliers = byMultiplier.colPivHouseholderQr().solve(-open);
+  const Eigen::Vector2d multipliers = leastSquares(byMultiplier, -open, 1e-12);
   std::ranges::copy(multipliers, y.begin() + 3);
   EXPECT_LT(rowsAt(y).norm(), 1e-12);
   for (std::size_t i = 0; i < y.size(); ++i) {

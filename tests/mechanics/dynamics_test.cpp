@@ -1,14 +1,13 @@
 // Laws that hold for every mechanism: energy, power, agreement of formulations, and bodies with a known motion.
 #include <gmock/gmock.h>
 
-#include <Eigen/Dense>
-
 #include "machines.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/bodies.hpp"
 #include "mechanics/joints.hpp"
 #include "mechanics/model.hpp"
 #include "mechanics/springs.hpp"
+#include "scalars/algebra/decompositions.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 
 namespace gamut {
@@ -102,8 +101,7 @@ TEST(EquationsOfMotion, AreSolvedByTheKinetostaticInertiaMatrix) {
       machine->setState(isArm ? armState(states) : states(4, 1.5));
       const Eigen::MatrixXd inertia = machine->system().inertiaMatrix();
       const std::vector<double> forces = machine->system().residual();
-      const Eigen::VectorXd expected =
-          inertia.llt().solve(Eigen::Map<const Eigen::VectorXd>(forces.data(), inertia.rows()));
+      const Eigen::VectorXd expected = symmetricSolved(inertia, Eigen::VectorXd::Map(forces.data(), inertia.rows()));
       const std::vector<double> a = machine->accelerations();
       for (int j = 0; j < inertia.rows(); ++j)
         EXPECT_NEAR(a[static_cast<std::size_t>(j)], expected[j], 1e-10 * expected.norm()) << isArm;

@@ -4,12 +4,13 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <random>
 #include <vector>
+
+#include "scalars/algebra/decompositions.hpp"
 
 namespace gamut::rest_stability {
 namespace {
@@ -151,7 +152,7 @@ double greatestRealPart(const Eigen::MatrixXd& k, const Eigen::MatrixXd& c) {
   a.topRightCorner(n, n).setIdentity();
   a.bottomLeftCorner(n, n) = -k;
   a.bottomRightCorner(n, n) = -c;
-  return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues().real().maxCoeff();
+  return eigenvaluesOf(a).real().maxCoeff();
 }
 
 /// Dampers, fewer than coordinates and more, with c_k at the ends of their intervals and between.
@@ -172,7 +173,7 @@ TEST(RestStability, OfDampersIsThatOfAllInThem) {
       Eigen::MatrixXd k = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return number(random); });
       k = Eigen::MatrixXd(k + k.transpose());
       if (tried % 4 < 2) k += 2 * n * Eigen::MatrixXd::Identity(n, n);
-      const Eigen::VectorXd squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
+      const Eigen::VectorXd squares = pencilValuesOf(k, Eigen::MatrixXd::Identity(n, n));
       if (squares.cwiseAbs().minCoeff() < 1e-3) continue;
       const RestStability found = stabilityOf(of, static_cast<int>((squares.array() < 0).count()));
       if (found == unknown) continue;
