@@ -43,10 +43,6 @@ std::optional<LinearForm> combined(const LinearForm& a, const Interval& by, cons
   return isExact ? std::optional(sum) : std::nullopt;
 }
 
-}  // namespace
-
-namespace {
-
 /// The other operand of a product with a number that is one double; -1: it is none.
 int factorOf(const Program& f, const Node& product) {
   const auto isNumber = [&](int which) {
