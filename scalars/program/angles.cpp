@@ -12,7 +12,8 @@ namespace gamut {
 namespace {
 
 struct HalfAngle {
-  std::vector<int> y;  ///< factors
+  std::vector<int> y;  ///< factors, none of 1
+  bool isNegated = false;
   int d = -1;
 };
 
@@ -38,11 +39,14 @@ std::optional<HalfAngle> halfAngleAt(const Program& program, const Node& node) {
     } else if (factor.op == Op::mul) {
       open.push_back(factor.a);
       open.push_back(factor.b);
+    } else if (factor.op == Op::neg) {
+      open.push_back(factor.a);
+      found.isNegated = !found.isNegated;
     } else {
       found.y.push_back(i);
     }
   }
-  return found.d >= 0 && !found.y.empty() ? std::optional(found) : std::nullopt;
+  return found.d >= 0 ? std::optional(found) : std::nullopt;
 }
 
 /// The factors of a product, in order.
@@ -63,6 +67,18 @@ std::vector<int> factorsOf(const Program& program, int node) {
   return found;
 }
 
+/// Whether these are numbers whose product has the square `square`, a number as well: known where all are doubles.
+bool isSquareOfNumbers(const Program& program, const Node& square, const std::vector<int>& factors) {
+  Interval product(1.0);
+  for (const int factor : factors) {
+    const Node& of = program.nodes()[factor];
+    if (of.op != Op::constant) return false;
+    product *= program.constants()[of.a];
+  }
+  return isThin(product) && square.op == Op::constant && isThin(program.constants()[square.a]) &&
+         isEqual(sqr(product), program.constants()[square.a]);
+}
+
 /// Whether r is √(x² + y²), of y's factors, up to signs.
 bool isLength(const Program& program, int r, int x, const std::vector<int>& y) {
   const Node& sum = program.nodes()[program.nodes()[r].a];
@@ -71,7 +87,8 @@ bool isLength(const Program& program, int r, int x, const std::vector<int>& y) {
   for (const int factor : y) std::ranges::copy(factorsOf(program, factor), std::back_inserter(ofY));
   std::ranges::sort(ofY);
   const auto isSquareOf = [&](int square, const std::vector<int>& factors) {
-    return program.nodes()[square].op == Op::sqr && factorsOf(program, program.nodes()[square].a) == factors;
+    const Node& node = program.nodes()[square];
+    return node.op == Op::sqr ? factorsOf(program, node.a) == factors : isSquareOfNumbers(program, node, factors);
   };
   const std::vector<int> ofX = factorsOf(program, x);
   return (isSquareOf(sum.a, ofX) && isSquareOf(sum.b, ofY)) || (isSquareOf(sum.b, ofX) && isSquareOf(sum.a, ofY));
@@ -110,6 +127,7 @@ Program withHalfTurns(const Program& program) {
     const int acute = result.append(program, {}, own)[angle];
     int side = one;  // of y
     for (const int y : of.y) side = result.mul(side, result.sign(here[y]));
+    if (of.isNegated) side = result.neg(side);
     side = result.sub(result.add(side, one), result.sqr(side));
     const int turn = result.mul(result.mul(half, result.sub(one, result.sign(x))), result.add(eighth, eighth));
     instead[angle] = result.add(result.mul(result.sign(x), acute), result.mul(side, turn));

@@ -32,6 +32,24 @@ TEST(HalfTurns, HaveAValueOnTheNegativeAxisAndAllDigitsBesideIt) {
       EXPECT_NEAR(found[1] - 1, std::atan2(2 * y, -x), 1e-15);
     }
   EXPECT_TRUE(std::isnan(evaluate<double>(turned, std::vector{0.0, 0.0}, std::vector{2.0}, 0.0)[0]));
+  // Signs move outwards, squares of numbers are numbers, and a factor of 1 is none.
+  const Program written = record(2, 0, 5, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = atan2(-x[0], -x[1]);
+    y[1] = atan2(x[0], Recorded(-1.0));
+    y[2] = atan2(-3.0 * x[0] * x[1], Recorded(-0.5));
+    y[3] = atan2(Recorded(1.0), -x[1]);
+    y[4] = atan2(Recorded(-0.25), -x[1]);
+  });
+  ASSERT_EQ(halfAnglesOf(written).size(), 5u);
+  for (const double y : {0.0, 1e-300, -1e-9, 0.5, -2.0})
+    for (const double x : {1.0, 1e9, 3.5}) {
+      const std::vector<double> found = evaluate<double>(withHalfTurns(written), std::vector{y, x});
+      EXPECT_NEAR(found[0], std::atan2(0 - y, -x), 1e-15);
+      EXPECT_NEAR(found[1], std::atan2(y, -1), 1e-15);
+      EXPECT_NEAR(found[2], std::atan2(0 - 3 * y * x, -0.5), 1e-15);
+      EXPECT_NEAR(found[3], std::atan2(1, -x), 1e-15);
+      EXPECT_NEAR(found[4], std::atan2(-0.25, -x), 1e-15);
+    }
   // No length: what only looks like an angle stays.
   const Program other = record(2, 0, 1, [](auto, const auto& x, const auto&, auto& y) {
     y[0] = atan(x[0] * sqr(1.0 / sqrt(x[1] + sqrt(sqr(x[0]) + 4.0))));
