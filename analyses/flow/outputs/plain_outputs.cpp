@@ -2,6 +2,7 @@
 #include "analyses/flow/outputs/plain_outputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "scalars/algebra/linear_system.hpp"
@@ -39,11 +40,11 @@ std::vector<int> argumentsOfRoots(const Program& g, std::vector<int> open) {
 
 namespace {
 
-/// The values of these nodes, then what they take roots and logarithms of.
-Program withArguments(const Program& g, std::vector<int> nodes) {
+/// These nodes, then what they take roots and logarithms of.
+std::vector<int> withRootArguments(const Program& g, std::vector<int> nodes) {
   const std::vector<int> besides = argumentsOfRoots(g, nodes);
   nodes.insert(nodes.end(), besides.begin(), besides.end());
-  return Recorder(g).finish(nodes);
+  return nodes;
 }
 
 /// These nodes with those of `given` as further parameters; what only others need is not written down again.
@@ -71,15 +72,16 @@ Program withNodesGiven(const Program& g, const std::vector<int>& given, const st
   return recorder.finish(outputs);
 }
 
-/// Whether none of the others, which roots and logarithms are taken of, may be negative.
-bool areDefined(const std::vector<Interval>& found, std::size_t values) {
-  for (std::size_t i = values; i < found.size(); ++i)
-    if (!(found[i].lower() >= 0)) return false;
-  return true;
+/// The first of `found`, if it has a value: none of the others, which roots and logarithms are taken of, may be
+/// negative; and of no angle, the tangents of whose halves come last, may a half come to -π/2, beside which it is π/2.
+Interval valueOf(const std::vector<Interval>& found, std::size_t angles) {
+  const std::size_t tangents = found.size() - angles;
+  for (std::size_t i = 1; i < tangents; ++i)
+    if (!(found[i].lower() >= 0)) return Interval::empty();
+  for (std::size_t i = tangents; i < found.size(); ++i)
+    if (std::isinf(found[i].lower())) return Interval::empty();
+  return found[0];
 }
-
-/// The first of `found`, if it has a value.
-Interval valueOf(const std::vector<Interval>& found) { return areDefined(found, 1) ? found[0] : Interval::empty(); }
 
 /// Twice the extreme: the greater is as large as either at least, and no larger than both may be; the lesser likewise.
 Interval rangeOf(const Extreme& extreme, const Interval& a, const Interval& b) {
@@ -214,10 +216,12 @@ PlainOutputs::Angles& PlainOutputs::anglesOf(int output) {
   std::optional<Angles>& of = outputs_[output].angles;
   if (of) return *of;
   const Program own = Recorder(*g_).finish({g_->outputNodes()[output]});
-  of.emplace(Evaluator<Interval>(withArguments(own, own.outputNodes())));
   const std::vector<int> angles = halfAnglesOf(own);
+  std::vector<int> nodes = withRootArguments(own, own.outputNodes());
+  for (const int angle : angles) nodes.push_back(own.nodes()[angle].a);
+  of.emplace(Evaluator<Interval>(Recorder(own).finish(nodes)));
   const Program atWorst = withNodesGiven(own, angles, own.outputNodes());
-  of->atWorst.emplace_back(withArguments(atWorst, atWorst.outputNodes()));
+  of->atWorst.emplace_back(Recorder(atWorst).finish(withRootArguments(atWorst, atWorst.outputNodes())));
   of->count = angles.size();
   return *of;
 }
@@ -226,12 +230,12 @@ Interval PlainOutputs::overAngles(int output, const Interval& t, const std::vect
                                   const std::vector<Interval>& parameters) {
   Angles& of = anglesOf(output);
   of.value.setParameters(parameters);
-  Interval value = valueOf(of.value(t, states));
+  Interval value = valueOf(of.value(t, states), of.count);
   if (isEmpty(value)) {
     std::vector<Interval> all = parameters;
     all.resize(all.size() + of.count, hull(-halfPi(), halfPi()));
     of.atWorst[0].setParameters(all);
-    value = valueOf(of.atWorst[0](t, states));
+    value = valueOf(of.atWorst[0](t, states), 0);
   }
   return isEmpty(value) ? Interval::entire() : value;
 }

@@ -67,7 +67,7 @@ class PlainOutputs {
   /// Of an output of angles, which are known as wholes only.
   struct Angles {
     explicit Angles(Evaluator<Interval> whole) : value(std::move(whole)) {}
-    Evaluator<Interval> value;                 // and all that it takes a root or logarithm of
+    Evaluator<Interval> value;                 // and all that it takes a root or logarithm of, then tangents of angles
     std::vector<Evaluator<Interval>> atWorst;  // likewise, with halves of angles as further parameters
     std::size_t count = 0;
   };

@@ -20,6 +20,29 @@ TEST(PlainOutputs, DoNotTakeTheNegativeAxisForThePositiveOne) {
   EXPECT_LT(magnitude(outputs.over(0, 0.0, {Interval(-1e-9, 1e-9), Interval(-2.0, -1.0)}, {})), 3.1416);
 }
 
+/// On the negative axis the angle is π, from whichever side y comes to 0, and however both are written.
+TEST(PlainOutputs, KnowThatTheAngleOfTheNegativeAxisIsPi) {
+  PlainOutputs outputs(record(2, 0, 5, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = atan2(x[0], x[1]);
+    y[1] = atan2(-x[0], x[1]);
+    y[2] = atan2(x[0], Recorded(-1.0));
+    y[3] = atan2(-2.0 * x[0] * x[1], -sqr(x[1]));
+    y[4] = abs(atan2(x[0] / x[1], x[1])) - 1.0;
+  }));
+  for (const Interval& y : {Interval(-0.1, 0.0), Interval(0.0, 0.1), Interval(-0x1p-1074, 0.0), Interval(-0.1, 0.1)})
+    for (const Interval& x : {Interval(-1.0), Interval(-0.3), Interval(-2.0, -1.0), Interval(-1.0, 0.0)}) {
+      for (int o = 0; o < 4; ++o) {
+        const Interval angle = outputs.over(o, 0.0, {y, x}, {});
+        EXPECT_TRUE(contains(angle, std::numbers::pi)) << o << y << x << angle;
+        EXPECT_LT(magnitude(angle), 3.1416) << o << y << x << angle;
+      }
+      EXPECT_TRUE(contains(outputs.over(4, 0.0, {y, x}, {}), std::numbers::pi - 1)) << y << x;
+    }
+  EXPECT_GE(outputs.over(0, 0.0, {Interval(0.0, 0.1), Interval(-1.0)}, {}).lower(), 0);
+  EXPECT_GE(outputs.over(1, 0.0, {Interval(-0.1, 0.0), Interval(-1.0)}, {}).lower(), 0);
+  EXPECT_LT(outputs.over(0, 0.0, {Interval(-0.1, -0.05), Interval(-1.0)}, {}).upper(), -2.9);
+}
+
 /// Bounds of the greater are the greater bounds, nested ones too, however the two are written.
 TEST(PlainOutputs, OfExtremesAreThoseOfTheExtreme) {
   PlainOutputs outputs(record(2, 1, 8, [](auto t, const auto& x, const auto& p, auto& y) {
