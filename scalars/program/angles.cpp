@@ -103,6 +103,10 @@ std::vector<int> halfAnglesOf(const Program& program) {
   return found;
 }
 
+int denominatorOf(const Program& program, int halfAngle) {
+  return halfAngleAt(program, program.nodes()[halfAngle]).value().d;
+}
+
 Program withHalfTurns(const Program& program) {
   const std::vector<int> angles = halfAnglesOf(program);
   if (angles.empty()) return program;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <utility>
 
 #include "scalars/algebra/linear_system.hpp"
@@ -39,13 +41,6 @@ std::vector<int> argumentsOfRoots(const Program& g, std::vector<int> open) {
 }
 
 namespace {
-
-/// These nodes, then what they take roots and logarithms of.
-std::vector<int> withRootArguments(const Program& g, std::vector<int> nodes) {
-  const std::vector<int> besides = argumentsOfRoots(g, nodes);
-  nodes.insert(nodes.end(), besides.begin(), besides.end());
-  return nodes;
-}
 
 /// These nodes with those of `given` as further parameters; what only others need is not written down again.
 Program withNodesGiven(const Program& g, const std::vector<int>& given, const std::vector<int>& nodes) {
@@ -217,11 +212,15 @@ PlainOutputs::Angles& PlainOutputs::anglesOf(int output) {
   if (of) return *of;
   const Program own = Recorder(*g_).finish({g_->outputNodes()[output]});
   const std::vector<int> angles = halfAnglesOf(own);
-  std::vector<int> nodes = withRootArguments(own, own.outputNodes());
+  std::vector<int> nodes = own.outputNodes(), others = nodes;
+  std::ranges::copy(argumentsOfRoots(own, nodes), std::back_inserter(nodes));
+  const auto isOfAngle = [&](int node) {
+    return std::ranges::any_of(angles, [&](int angle) { return denominatorOf(own, angle) == node; });
+  };
+  std::copy_if(nodes.begin() + 1, nodes.end(), std::back_inserter(others), std::not_fn(isOfAngle));
   for (const int angle : angles) nodes.push_back(own.nodes()[angle].a);
   of.emplace(Evaluator<Interval>(Recorder(own).finish(nodes)));
-  const Program atWorst = withNodesGiven(own, angles, own.outputNodes());
-  of->atWorst.emplace_back(Recorder(atWorst).finish(withRootArguments(atWorst, atWorst.outputNodes())));
+  of->atWorst.emplace_back(withNodesGiven(own, angles, others));
   of->count = angles.size();
   return *of;
 }

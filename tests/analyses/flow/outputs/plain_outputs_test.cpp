@@ -43,6 +43,21 @@ TEST(PlainOutputs, KnowThatTheAngleOfTheNegativeAxisIsPi) {
   EXPECT_LT(outputs.over(0, 0.0, {Interval(-0.1, -0.05), Interval(-1.0)}, {}).upper(), -2.9);
 }
 
+/// An angle of what has no value has none, near the negative axis either.
+TEST(PlainOutputs, SayNothingOfAnglesOfWhatMayHaveNoValue) {
+  PlainOutputs outputs(record(2, 0, 4, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = atan2(x[0], sqrt(x[1]));
+    y[1] = atan2(log(x[1]), x[0]);
+    y[2] = atan2(atan2(sqrt(x[1]), x[0]), -1.0 - sqr(x[0]));
+    y[3] = sqrt(4.0 - atan2(x[0], x[1]));
+  }));
+  for (int o = 0; o < 3; ++o)
+    EXPECT_TRUE(isEntire(outputs.over(o, 0.0, {Interval(-0.1, 0.1), Interval(-0.1, 1.0)}, {}))) << o;
+  const Interval root = outputs.over(3, 0.0, {Interval(-0.1, 0.1), Interval(-2.0, -1.0)}, {});
+  EXPECT_TRUE(contains(root, std::sqrt(4 - 3.1)) && contains(root, std::sqrt(4 + 3.1)));
+  EXPECT_LT(root.upper(), 2.7);
+}
+
 /// Bounds of the greater are the greater bounds, nested ones too, however the two are written.
 TEST(PlainOutputs, OfExtremesAreThoseOfTheExtreme) {
   PlainOutputs outputs(record(2, 1, 8, [](auto t, const auto& x, const auto& p, auto& y) {
