@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/flow/outputs/plain_outputs.hpp"
 #include "analyses/work.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/program/differentiation.hpp"
@@ -81,6 +82,16 @@ class ValuesOverParts {
     return slopes;
   }
 
+  /// Whether the output is known to have a value all over these, and to jump nowhere.
+  bool isContinuousOver(double begin, double end, const Box& box, std::size_t output) {
+    if (!withSlopes_) return false;
+    if (!defined_) defined_.emplace(g_);
+    if (defined_->hasAngles()) return false;
+    const auto parameters = box.begin() + g_.states();
+    return isBounded(defined_->over(static_cast<int>(output), Interval(begin, end), {box.begin(), parameters},
+                                    {parameters, box.end()}));
+  }
+
   static double lowerOf(const Interval& value) {
     return isEmpty(value) || std::isnan(value.lower()) ? -std::numeric_limits<double>::infinity() : value.lower();
   }
@@ -89,6 +100,7 @@ class ValuesOverParts {
   const Program& g_;
   Evaluator<Interval> plain_;
   std::optional<Evaluator<Interval>> withSlopes_;
+  std::optional<PlainOutputs> defined_;  // where it is first asked for
   std::vector<Interval> values_;
 };
 
@@ -110,16 +122,15 @@ class ZeroFreeSearch {
         continue;
       }
       const bool isStopped = cancelled != nullptr && cancelled->load(std::memory_order_relaxed);
-      const bool isDone = halved == most || isStopped || part.begin >= zeroBy_ - close * horizon_ ||
-                          !isHalved(part, static_cast<std::size_t>(first));
+      const bool isReached = part.begin >= zeroBy_ - close * horizon_;
+      const bool isDone = halved == most || isStopped || isReached || !isHalved(part, static_cast<std::size_t>(first));
       if (!isDone) continue;
-      if (!isStopped && !isZeroKnown()) lookForZero(part, static_cast<std::size_t>(first));
-      using enum ZeroFree::End;
-      return {part.begin > 0 ? part.begin : -1, first,
-              isStopped       ? ZeroFree::End::cancelled
-              : isZeroKnown() ? zero
-                              : open,
-              isZeroKnown() ? zeroBy_ : -1};
+      if (!isStopped && zero_ != first) lookForZero(part);
+      const double until = part.begin > 0 ? part.begin : -1;
+      if (isStopped) return {until, first, ZeroFree::End::cancelled, -1};
+      const bool isOfZero = isZeroKnown() && (isReached || zero_ == first);
+      return isOfZero ? ZeroFree{until, zero_, ZeroFree::End::zero, zeroBy_}
+                      : ZeroFree{until, first, ZeroFree::End::open, -1};
     }
     return {horizon_, -1, ZeroFree::End::horizon};
   }
@@ -138,24 +149,72 @@ class ZeroFreeSearch {
 
   bool isZeroKnown() const { return zeroBy_ < std::numeric_limits<double>::infinity(); }
 
-  /// Whether the output is not above zero at one moment and these values, so that, continuous until it has no value
-  /// any more, it was zero before.
-  void noteWhereZero(double time, const Box& values, std::size_t output) {
-    const Interval there = values_.plainly(time, time, values)[output];
-    if (isEmpty(there) || there.upper() <= 0) zeroBy_ = std::min(zeroBy_, time);
+  /// Of the outputs, with these values at this moment: the first that has one not above zero, none where none has;
+  /// whether all are above.
+  struct Moment {
+    std::optional<std::size_t> zero;
+    bool areAbove = true;
+  };
+  Moment momentAt(double time, const Box& values) {
+    Moment moment;
+    const std::vector<Interval>& found = values_.plainly(time, time, values);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      moment.areAbove = moment.areAbove && ValuesOverParts::lowerOf(found[i]) > 0;
+      if (!moment.zero && found[i].upper() <= 0) moment.zero = i;
+    }
+    return moment;
+  }
+
+  /// Where an output is not above zero with these values, and was at the start, it was zero in between, unless it
+  /// jumped or had no value: halving tells when, to where that is known.
+  void noteWhereZero(double time, const Box& values) {
+    constexpr int halvings = 24;
+    if (!(time < zeroBy_)) return;
+    std::optional<std::size_t> last = momentAt(time, values).zero;
+    if (!last) return;
+    const Moment start = momentAt(0, values);
+    if (start.zero) return noteStartAtZero(values, *start.zero);
+    double above = 0, by = time;
+    bool isClose = start.areAbove;
+    for (int i = 0; i < halvings && isClose; ++i) {
+      const double middle = 0.5 * (above + by);
+      const Moment there = momentAt(middle, values);
+      isClose = there.zero || there.areAbove;
+      if (there.zero)
+        by = middle, last = there.zero;
+      else if (isClose)
+        above = middle;
+    }
+    if (!start.areAbove || !values_.isContinuousOver(above, by, values, *last)) return;
+    zeroBy_ = by;
+    zero_ = static_cast<int>(*last);
+  }
+
+  /// It was zero for values on the way there from the box's middle, if it is above zero with these.
+  void noteStartAtZero(const Box& values, std::size_t output) {
+    const Box middle = middleOf(box_);
+    Box way = values;
+    for (std::size_t i = 0; i < way.size(); ++i) way[i] = hull(values[i], middle[i]);
+    if (!momentAt(0, middle).areAbove || !values_.isContinuousOver(0, 0, way, output)) return;
+    zeroBy_ = 0;
+    zero_ = static_cast<int>(output);
+  }
+
+  static Box middleOf(Box box) {
+    for (Interval& each : box) each = Interval(midpoint(each));
+    return box;
   }
 
   /// Of a part that stayed open its corners, of the whole box corners and middle at some times from there on.
-  void lookForZero(const OpenPart& part, std::size_t output) {
+  void lookForZero(const OpenPart& part) {
+    const double before = zeroBy_;
     for (const double time : {0.5 * (part.begin + part.end), part.end})
-      forEachCorner(part.box, [&](const Box& corner) { noteWhereZero(time, corner, output); });
-    Box middle = box_;
-    for (Interval& each : middle) each = Interval(midpoint(each));
+      forEachCorner(part.box, [&](const Box& corner) { noteWhereZero(time, corner); });
     for (int i = 1; i <= slices; ++i) {
       const double time = horizon_ * i / slices;
-      if (!(time > part.begin) || isZeroKnown()) continue;
-      noteWhereZero(time, middle, output);
-      forEachCorner(box_, [&](const Box& corner) { noteWhereZero(time, corner, output); });
+      if (!(time > part.begin) || zeroBy_ < before) continue;
+      noteWhereZero(time, middleOf(box_));
+      forEachCorner(box_, [&](const Box& corner) { noteWhereZero(time, corner); });
     }
   }
 
@@ -165,8 +224,7 @@ class ZeroFreeSearch {
     std::vector<std::size_t> wide;
     for (std::size_t i = 0; i < box.size() && wide.size() < most; ++i)
       if (!isThin(box[i])) wide.push_back(i);
-    Box corner = box;
-    for (Interval& each : corner) each = Interval(midpoint(each));
+    Box corner = middleOf(box);
     for (std::size_t number = 0; number < std::size_t{1} << wide.size(); ++number) {
       for (std::size_t k = 0; k < wide.size(); ++k) {
         const Interval& range = box[wide[k]];
@@ -222,9 +280,7 @@ class ZeroFreeSearch {
 
   /// False where there is nothing that can be.
   bool isHalved(const OpenPart& part, std::size_t output) {
-    Box middle = part.box;
-    for (Interval& each : middle) each = Interval(midpoint(each));
-    noteWhereZero(part.end, middle, output);
+    noteWhereZero(part.end, middleOf(part.box));
     const std::size_t by = whatToHalve(part, output), time = part.box.size();
     if (by > time) return false;
     const OpenPart whole = part;
@@ -247,7 +303,8 @@ class ZeroFreeSearch {
   Box box_;
   std::priority_queue<OpenPart> parts_;
   std::size_t count_ = 0;
-  double zeroBy_ = std::numeric_limits<double>::infinity();  // s: until then one is zero, for some values
+  double zeroBy_ = std::numeric_limits<double>::infinity();  // s: until then output `zero_` is, for some values
+  int zero_ = -1;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace gamut {
 struct ZeroFree {
   enum class End : unsigned char {
     horizon,   ///< all are above zero, to the end
-    zero,      ///< one is proved to be zero, for some values, by the time `zeroBy`
+    zero,      ///< output `first` is proved to be zero, for some values, by the time `zeroBy`
     open,      ///< as closely as it looked one may be or not
     cancelled  ///< it was told to stop
   };
@@ -23,8 +23,9 @@ struct ZeroFree {
 };
 
 /// Of all outputs y = g(t, x, p) at once, over a box (states, then parameters) and the times from 0 to `horizon` [s].
-/// An output may have no value where another one is zero or less, and nowhere else. The more parts it takes, the
-/// closer; it halves a thousand. What is known until then, once `cancelled` was set.
+/// An output may have no value where another one is zero or less; where there is none for another reason nothing is
+/// said, and no zero is seen in that. The more parts it takes, the closer; it halves a thousand. What is known until
+/// then, once `cancelled` was set.
 ZeroFree zeroFree(const Program& g, const Box& box, double horizon, const std::atomic<bool>* cancelled = nullptr);
 
 }  // namespace gamut

@@ -32,6 +32,7 @@
 #include "studies/machine_faults.hpp"
 #include "studies/results/fuzzy.hpp"
 #include "studies/watch.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -232,9 +233,9 @@ std::optional<AngleCourses> placedIn(const Study& study, const std::vector<std::
   const ZeroFree known = zeroFree(regular.values, box, soon * study.horizon);
   if (known.until > 0) return placed;
   const std::string& what = regular.otherwise[static_cast<std::size_t>(known.first)];
-  irregular = known.end == ZeroFree::End::zero
-                  ? fmt::format("{} for some values, at {:.6g} s at the latest", what, known.zeroBy)
-                  : fmt::format("it could not be excluded that {} where it starts", what);
+  irregular = known.end == ZeroFree::End::zero ? fmt::format("{} for some values, at {} s at the latest", what,
+                                                             outwardText(known.zeroBy, known.zeroBy, 6).second)
+                                               : fmt::format("it could not be excluded that {} where it starts", what);
   return std::nullopt;
 }
 

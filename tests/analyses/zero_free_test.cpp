@@ -64,6 +64,56 @@ TEST(ZeroFree, TellsZerosFromWhatItDoesNotKnow) {
   EXPECT_EQ(span.first, 0);
 }
 
+/// No value, a pole, a jump, or nothing above zero from the start on is no zero.
+TEST(ZeroFree, SeesNoZeroWhereAnOutputHasNoneButNoValue) {
+  const auto endOf = [](const Program& g, const std::vector<Interval>& parameters) {
+    return zeroFree(g, boxOf(parameters), 1.0).end;
+  };
+  const auto rooted = [](const auto& t, const auto& p) { return 1.0 + sqrt(0.75 - t + p[0]); };
+  EXPECT_EQ(endOf(valuesOf(1, rooted), {Interval(0.0)}), ZeroFree::End::open);
+  EXPECT_EQ(endOf(valuesOf(1, rooted), {Interval(-0.1, 0.1)}), ZeroFree::End::open);
+  EXPECT_EQ(endOf(valuesOf(0, [](const auto& t, const auto&) { return 1.0 + 1.0 / (0.5001 - t); }), {}),
+            ZeroFree::End::open);
+  EXPECT_EQ(endOf(valuesOf(1, [](const auto& t, const auto& p) { return 0.5 - sign(t - p[0]); }), {Interval(0.4, 0.6)}),
+            ZeroFree::End::open);
+  const auto turning = [](const auto& t, const auto&) { return 1.0 - atan2(t - 0.5, Recorded(-1.0)); };
+  EXPECT_EQ(endOf(valuesOf(0, turning), {}), ZeroFree::End::open);
+  EXPECT_EQ(endOf(valuesOf(0, [](const auto& t, const auto&) { return -1e-3 - t; }), {}), ZeroFree::End::open);
+}
+
+/// At the start some values have a zero where those of the middle are above and others are not.
+TEST(ZeroFree, SeesZerosOfTheStart) {
+  const ZeroFree start = zeroFree(valuesOf(1, [](const auto& t, const auto& p) { return p[0] + 0.1 * t; }),
+                                  boxOf({Interval(-0.3, 1)}), 1.0);
+  EXPECT_LT(start.until, 0);
+  EXPECT_EQ(start.end, ZeroFree::End::zero);
+  EXPECT_EQ(start.zeroBy, 0);
+}
+
+/// What is zero behind is no reason to end where another one cannot be excluded to be; one that has no value behind the
+/// zero of another one is not zero itself.
+TEST(ZeroFree, TellsWhichOutputIsZero) {
+  for (const bool isFirst : {true, false}) {
+    const Program g = record(1, 0, 2, [isFirst](auto t, const auto&, const auto&, auto& y) {
+      y[isFirst ? 0 : 1] = 0.6 - t;
+      y[isFirst ? 1 : 0] = square(t - 0.3) * (1.0 + sqrt(0.6 - t));
+    });
+    const ZeroFree span = zeroFree(g, boxOf({}), 1.0);
+    EXPECT_EQ(span.first, isFirst ? 1 : 0);
+    EXPECT_EQ(span.end, ZeroFree::End::open) << span.zeroBy;
+    EXPECT_LE(span.until, 0.3);
+  }
+  const Program g = record(1, 0, 2, [](auto t, const auto&, const auto&, auto& y) {
+    y[0] = 1.0 + sqrt(0.6 - t);
+    y[1] = 0.6 - t;
+  });
+  const ZeroFree span = zeroFree(g, boxOf({}), 1.0);
+  EXPECT_EQ(span.first, 1);
+  EXPECT_EQ(span.end, ZeroFree::End::zero);
+  EXPECT_GE(span.zeroBy, 0.6);
+  EXPECT_LT(span.zeroBy, 0.6 + 1e-6);
+}
+
 /// A side of a triangle between two that turn: plain intervals would need many more parts.
 TEST(ZeroFree, KnowsSlopes) {
   const Program distance = valuesOf(1, [](const auto& t, const auto& p) {

@@ -351,6 +351,12 @@ TEST(PlayInLoops, EndsWhereTheNominalMachineComesToADeadPoint) {
   }
 }
 
+/// A drive that ends, as a root does, is no dead point of the loop.
+TEST(PlayInLoops, NamesNoDeadPointWhereADriveHasNoPosition) {
+  const Results results = enclosed(fourBar("0.75 rad + 0.3*sqrt(1 - 2*t/(1 s))", "1 mm", 1).with("", {"rocker.angle"}));
+  expectEnd(results, 0.48, 0.52, "it could not be excluded that");
+}
+
 /// From where coupler and rocker are stretched it may go on in two ways.
 TEST(PlayInLoops, SaysWhichLoopStartsAtADeadPoint) {
   const std::string study =
