@@ -36,13 +36,14 @@ struct BoundedNumber {
     return computed(Real(a.value * b.value), Real(Real(abs(a.value)) * b.off + Real(abs(b.value)) * a.off +
                                                   a.off * b.off + Real(std::numeric_limits<Real>::min())));
   }
-  /// |1/x - 1/v| <= off / (|v| (|v| - off)).
+  /// |a/x - a/v| <= |a/v| off / (|v| - off), in an order in which nothing that counts is too small for a Real.
   friend BoundedNumber operator/(const BoundedNumber& a, const BoundedNumber& b) {
     using std::abs;
-    const Real size = abs(b.value), least = size - b.off;
-    if (!(least > 0)) return {Real(a.value / b.value), Real(std::numeric_limits<double>::infinity())};
-    return computed(Real(a.value / b.value), Real(a.off / least + Real(abs(a.value)) * b.off / size / least +
-                                                  Real(std::numeric_limits<Real>::min())));
+    const Real least = abs(b.value) - b.off, smallest(std::numeric_limits<Real>::min());
+    Real result = a.value / b.value;
+    if (!(least > 0)) return {std::move(result), Real(std::numeric_limits<double>::infinity())};
+    Real all = a.off / least + (Real(abs(result)) + smallest) * Real(b.off / least) + smallest;
+    return computed(std::move(result), std::move(all));
   }
   friend bool operator<(const BoundedNumber& a, const BoundedNumber& b) { return a.value < b.value; }
 

@@ -115,6 +115,22 @@ TEST(BoundedNumber, KnowsSignsAndQuotientsWhereTheyAreKnown) {
   EXPECT_EQ((zero * (1.0 / open)).off, 0);
 }
 
+/// Of doubles whose products are none.
+TEST(BoundedNumber, HoldsQuotientsOfSmallNumbers) {
+  for (const double size : {1e-300, 1e-170, 1e-160, 1e-20, 1e150})
+    for (const double by : {1e-308, 1e-300, 1e-161, 1e-20, 1e150})
+      for (const double part : {1e-14, 0.1, 0.9}) {
+        const double off = by * part;
+        const BoundedNumber<double> found = BoundedNumber<double>(size) / BoundedNumber<double>(by, off);
+        const Wide truth = Wide(size) / (Wide(by) - Wide(off));
+        EXPECT_TRUE(!found.isKnown() || abs(truth - Wide(found.value)) <= Wide(found.off))
+            << size << ' ' << by << ' ' << part;
+        if (size / by > 1e-290 && size / by < 1e290) {
+          EXPECT_LE(found.off, 1.001 * (abs(truth - Wide(found.value)) + 1e-15 * abs(truth)));
+        }
+      }
+}
+
 /// Both integrations round alike where nothing is integrated: what they differ by is no error.
 TEST(Arbiter, TellsWhatOutputsAreRoundedBy) {
   Motion motion;
