@@ -49,6 +49,17 @@ std::unordered_set<std::string> elementsBetween(const Mechanism& mechanism, cons
   return elements;
 }
 
+/// Whether the joint that is described slides along this direction.
+bool slidesAlong(Described joint, const Axis& along) {
+  class Finder final : public Onlooker {
+   public:
+    void jointAxis(const Word&, Axis& axis, const std::string&) override { found = axis; }
+    std::optional<Axis> found;
+  } finder;
+  joint.describe(finder);
+  return finder.found && finder.found->isParallelTo(along);
+}
+
 /// Names of whole quantities, which parts of a mechanism must not have.
 bool isQuantity(const std::string& name) {
   return name == "gravity" || name == "t" || name == baseAccelerationName ||
@@ -488,6 +499,21 @@ class Mechanism::Checker final : public Fields {
     const Coordinate kind = found(name).kind;
     m_.drive(name, element_);
     return kind;
+  }
+  /// Of a joint that is no height over the way ahead a profile would not be seen. Where none is asked for, its speed is
+  /// 0, by a name of its own.
+  void drawsProfile(const std::string& coordinate, const Expression& speed, const Axis& along) override {
+    const std::string name = element_ + ".profile_speed";
+    if (isEqual(m_.rangeOf(speed), Interval(0.0)) && speed.names() == std::vector{name}) return;
+    const JointCoordinate& joint = *m_.coordinates_.find(coordinate);
+    const auto refuseAs = [&](const char* what) {
+      throw WrongNumber(name, "the motion of the joint " + inQuotes(joint.name) + " is no height of a profile: " + what,
+                        "none, or a joint that slides, alone and across `along`");
+    };
+    if (joint.kind == Coordinate::angle) refuseAs("it turns");
+    if (m_.coordinatesOf_.at(joint.element).size() > 1) refuseAs("its element moves in other ways too");
+    const auto element = std::ranges::find(m_.elements_, joint.element, &Described::name);
+    if (element != m_.elements_.end() && slidesAlong(*element, along)) refuseAs("it slides along the way ahead");
   }
   Coordinate followingCoordinate(const Word& word, std::string& name, const std::string& leader) override {
     found(name);

@@ -34,8 +34,9 @@ class PrescribedMotion final : public Load<S> {
 void describeProfile(Fields& f, const std::string& joint, DrivenProfile& profile) {
   f.number(
       {"profile_speed", "m/s",
-       "only where the joint slides: its motion is the height of a profile, such as a road, over which the machine "
-       "goes at this speed, and which its picture shows; no motion depends on that. 0, none, unless given"},
+       "only of a joint that slides, alone and across `along`: its motion is the height of a profile, such as a road, "
+       "over which the machine goes at this speed, and which its picture shows; no motion depends on that. 0, none, "
+       "unless given"},
       profile.speed);
   f.axis({"along", "",
           "in which the machine goes over the profile, in the frame that carries the joint; `\"x\"` "

@@ -399,6 +399,37 @@ TEST(DriveElement, IsRefusedWhereItCannotBe) {
   EXPECT_EQ(complaint(Drive{"d", "second", Expression::parse("3 rad * t/(1 s)")}), "no complaint");
 }
 
+/// What would not be seen is not asked for in vain.
+TEST(DriveElement, IsRefusedAProfileThatItsJointIsNoHeightOf) {
+  const auto complaint = [](const Described& drive) -> std::string {
+    Mechanism m;
+    m.addParameter("still", Interval(0.0), "m/s");
+    m.add(Revolute{"hinge", "inertial", "A", axisX});
+    m.add(Prismatic{"slide", "A", "B", Axis(0, 0, -2)});
+    m.add(Cylindrical{"sleeve", "B", "C", axisZ});
+    m.add(Mass{"bob", "C", 1.0, {0.0, 0.0, 1.0}});
+    try {
+      m.add(drive);
+    } catch (const WrongNumber& error) {
+      return error.problem() + "; " + error.expected();
+    }
+    return "no complaint";
+  };
+  const Expression turning = Expression::parse("3 rad/s*t"), sliding = Expression::parse("3 m/s*t");
+  EXPECT_EQ(complaint(Drive{"d", "hinge", turning, {5.0}}),
+            "'d.profile_speed': the motion of the joint 'hinge.angle' is no height of a profile: it turns; none, or a "
+            "joint that slides, alone and across `along`");
+  EXPECT_THAT(complaint(Drive{"d", "hinge", turning, {Expression::named("still")}}), HasSubstr("it turns"));
+  EXPECT_THAT(complaint(Drive{"d", "sleeve.displacement", sliding, {5.0}}), HasSubstr("moves in other ways too"));
+  EXPECT_THAT(complaint(Drive{"d", "slide", sliding, {5.0, axisZ}}), HasSubstr("it slides along the way ahead"));
+  TimeTable table;
+  table.times = table.values = {0, 1};
+  EXPECT_THAT(complaint(TableDrive{"d", "hinge", table, {5.0}}), HasSubstr("it turns"));
+  for (const Drive& drive : {Drive{"d", "hinge", turning}, Drive{"d", "hinge", turning, {0.0}},
+                             Drive{"d", "slide", sliding, {5.0}}, Drive{"d", "sleeve.displacement", sliding}})
+    EXPECT_EQ(complaint(drive), "no complaint");
+}
+
 // ---- Couplings ------------------------------------------------------------------------------------------------------
 
 /// A motor of inertia J drives a pendulum of inertia I by q_motor = i q + c: (I + i² J) q̈ = -m g l sin q + i M,

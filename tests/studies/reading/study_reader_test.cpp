@@ -55,6 +55,23 @@ TEST(StudyReader, EnclosesDecimalsAsTheyAreWritten) {
   EXPECT_FALSE(isThin(study.mechanism.nominal("hinge.angle")));
 }
 
+/// A road beneath what turns would not be seen.
+TEST(StudyReader, SaysWhereAProfileIsNone) {
+  const auto message = [](const std::string& joint, const std::string& speed) {
+    return messageOf(
+        "[study]\nanalysis = \"dynamics\"\nhorizon = 1\noutput_step = 0.1\n[[mechanism.element]]\ntype = \"" + joint +
+        "\"\nname = \"cam\"\nfrom = \"inertial\"\nto = \"K\"\naxis = \"z\"\n[[mechanism.element]]\ntype = "
+        "\"drive\"\nname = \"road\"\njoint = \"cam\"\nposition = \"0.1*sin(t/(1 s))\"\nprofile_speed = " +
+        speed + "\n");
+  };
+  EXPECT_EQ(message("revolute", "\"5 m/s\""),
+            "s.toml:16:17: 'road.profile_speed': the motion of the joint 'cam.angle' is no height of a profile: it "
+            "turns; expected none, or "
+            "a joint that slides, alone and across `along`");
+  EXPECT_THAT(message("revolute", "0"), Not(HasSubstr("profile")));
+  EXPECT_THAT(message("prismatic", "\"5 m/s\""), Not(HasSubstr("is no height")));
+}
+
 TEST(StudyReader, FindsADecimalBehindOtherLetters) {
   const Study study = readStudyText(
       sampleStudyWith("mass = \"250 g\"", "mass = 1\nparameters = { \"größe ±\" = 1e-1, other = +0.3 }"), "s.toml");
