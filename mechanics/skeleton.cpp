@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -104,6 +105,18 @@ class Seen final : public Onlooker {
     position = word.key;
   }
   void speed(const Word& word, Expression&) override { ++(word.unit == "rad/s" ? turns : slides); }
+  Coordinate coordinateOf(const Word&, std::string& name) override {
+    at = name;
+    return Coordinate::angle;
+  }
+  Coordinate drivenCoordinate(const Word& word, std::string& name) override {
+    drives = true;
+    return coordinateOf(word, name);
+  }
+  Coordinate followingCoordinate(const Word& word, std::string& name, const std::string&) override {
+    return drivenCoordinate(word, name);
+  }
+  void signal(const Word&, Expression&) override { drives = true; }
 
   std::vector<Moved> moved;
   std::vector<Body> bodies;
@@ -122,12 +135,17 @@ class Seen final : public Onlooker {
   std::optional<Expression> play;  // its clearance
   int turns = 0, slides = 0;
   std::string position;  // the last coordinate
+  std::string at;        // the coordinate that it names
+  bool drives = false;   // by a motion, or by a force of any kind
 };
 
 class Finder {
  public:
   explicit Finder(const Mechanism& mechanism) : mechanism_(mechanism) {
     for (Described element : mechanism.elements()) take(element);
+    for (const Disc& disc : discs_)
+      if (isMeantToTurn(disc.frame))
+        addWheel(disc.element, disc.type, disc.frame, disc.centre, turning_.at(disc.frame).axis, disc.radius);
   }
 
   Skeleton skeleton;
@@ -150,12 +168,15 @@ class Finder {
       const std::size_t first = pointOf(from), second = pointOf(to);
       skeleton.parts.push_back({name, element.type(), seen.play ? play : (isJoint ? joint : rigid), first, second,
                                 seen.turns, seen.slides, 0.0, seen.play.value_or(0.0)});
-      if (seen.turns == 1 && seen.slides == 0 && seen.axes.size() == 1) turning_.emplace(to, seen.axes.front().axis);
+      if (seen.turns == 1 && seen.slides == 0 && seen.axes.size() == 1)
+        turning_.emplace(to, Turning{name, from, seen.axes.front().axis});
       if (seen.turns + seen.slides == 1 && seen.axes.size() == 1)
         joints_.push_back({skeleton.parts.size() - 1, seen.axes.front().frame, to, seen.axes.front().axis,
                            name + "." + seen.position});
-      if (seen.wheel) addWheel(element, to, second, seen.wheel->first, seen.wheel->second);
+      if (seen.wheel) addWheel(name, element.type(), to, second, seen.wheel->first, seen.wheel->second);
     }
+    for (const std::string& coordinate : {seen.drives ? seen.at : "", seen.gears.empty() ? "" : seen.gears[0].leader})
+      if (const Skeleton::Part* joint = coordinate.empty() ? nullptr : jointOf(coordinate)) driven_.insert(joint->name);
     for (const Seen::Body& body : seen.bodies) addBody(element, body);
     for (const auto& [ends, is] : seen.springs) {
       if (!isNothing(is.stiffness)) addLine(element, spring, ends);
@@ -230,18 +251,32 @@ class Finder {
     const std::size_t first = pointOf(centre.frame), second = pointOf(element.name() + ".centre", centre);
     skeleton.parts.push_back({element.name(), element.type(), Skeleton::Kind::mass, first, second, 0, 0, mass});
     const auto turning = turning_.find(centre.frame);
-    if (turning == turning_.end() || !turning->second.isAligned() || inertia.empty() || isNothing(mass)) return;
-    const Expression& about = inertia[static_cast<std::size_t>(turning->second.index())];
-    if (isNothing(about) || !std::ranges::all_of(centre.place, [&](const Expression& x) { return isNothing(x); }))
+    if (turning == turning_.end() || !turning->second.axis.isAligned() || inertia.empty() || isNothing(mass)) return;
+    const auto axis = static_cast<std::size_t>(turning->second.axis.index());
+    const Expression &about = inertia[axis], &across = inertia[(axis + 1) % 3], &other = inertia[(axis + 2) % 3];
+    const bool isSymmetric = !isEmpty(intersection(mechanism_.rangeOf(across), mechanism_.rangeOf(other)));
+    if (isNothing(about) || !isSymmetric ||
+        !std::ranges::all_of(centre.place, [&](const Expression& x) { return isNothing(x); }))
       return;
-    addWheel(element, centre.frame, second, turning->second, sqrt(Expression(2.0) * about / mass));  // a disc's
+    discs_.push_back({element.name(), element.type(), centre.frame, second, sqrt(Expression(2.0) * about / mass)});
   }
 
-  void addWheel(const Described& element, const std::string& frame, std::size_t centre, const Axis& axle,
-                const Expression& radius) {
-    const std::string& name = element.name();
+  /// What a motion, a motor, a gear or another force is given to turns, and what hangs on it with the same axis: others
+  /// may but swing.
+  bool isMeantToTurn(const std::string& frame) const {
+    auto joint = turning_.find(frame);
+    const Axis& axis = joint->second.axis;
+    while (joint != turning_.end() && joint->second.axis.isParallelTo(axis)) {
+      if (driven_.contains(joint->second.element)) return true;
+      joint = turning_.find(carrierOf(joint->second.from));
+    }
+    return false;
+  }
+
+  void addWheel(const std::string& name, const std::string& type, const std::string& frame, std::size_t centre,
+                const Axis& axle, const Expression& radius) {
     addSpokes(name, frame, axle);
-    skeleton.parts.push_back({name, element.type(), Skeleton::Kind::wheel, centre, centre, 0, 0, 0.0, radius});
+    skeleton.parts.push_back({name, type, Skeleton::Kind::wheel, centre, centre, 0, 0, 0.0, radius});
   }
 
   /// Wheels whose radii have the ratio, where both joints turn and one body carries them; and one of a known radius
@@ -371,10 +406,24 @@ class Finder {
     return skeleton.points.size() - 1;
   }
 
+  /// What turns a frame.
+  struct Turning {
+    std::string element, from;
+    Axis axis;
+  };
+  /// A body that is the same all around the axis about which its frame turns: seen as a disc of its moment of inertia.
+  struct Disc {
+    std::string element, type, frame;
+    std::size_t centre;
+    Expression radius;
+  };
+
   const Mechanism& mechanism_;
   std::vector<std::string> ground_{Mechanism::inertialFrame};  // frames
-  std::map<std::string, Axis> turning_;                        // frames, about what
-  std::map<std::string, std::string> carrier_;                 // of frames: the outermost that they are fixed to
+  std::map<std::string, Turning> turning_;                     // frames
+  std::set<std::string> driven_;                               // elements of joints
+  std::vector<Disc> discs_;
+  std::map<std::string, std::string> carrier_;  // of frames: the outermost that they are fixed to
   std::vector<SimpleJoint> joints_;
 };
 

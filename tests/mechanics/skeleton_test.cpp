@@ -173,6 +173,8 @@ TEST(Skeleton, ShowsWhatTurnsAboutItselfAsAWheel) {
   m.add(Mass{"aside", "arm", 2.0, {0.1, 0.0, 0.0}, {0.02, 0.04, 0.02, 0.0, 0.0, 0.0}});
   m.add(Mass{"bob", "end", 2.0, {0.0, 0.0, 0.0}, {0.02, 0.04, 0.02, 0.0, 0.0, 0.0}});
   m.add(Mass{"drum", "arm", 0.5, {0.0, 0.0, 0.0}, {0.005, 0.005, 0.01, 0.0, 0.0, 0.0}});
+  m.add(Motor{.name = "motor", .joint = "axle", .moment = 1.0});
+  m.add(JointForce{"torque", "hinge", 2.0});
   const Skeleton skeleton = skeletonOf(m);
   std::vector<const Skeleton::Part*> wheels;
   for (const Skeleton::Part& part : skeleton.parts)
@@ -189,6 +191,34 @@ TEST(Skeleton, ShowsWhatTurnsAboutItselfAsAWheel) {
   EXPECT_EQ(skeleton.axes[2].axis.index(), 1);
   EXPECT_EQ(skeleton.axes[3].axis.index(), 2);
   EXPECT_EQ(&skeleton.parts[skeleton.axes[4].part], wheels[1]);
+}
+
+/// A bar that is turned is not the same all around its axis; a frame that swings is not meant to turn.
+TEST(Skeleton, ShowsBarsAndWhatSwingsAsNoWheels) {
+  const auto wheels = [](const std::vector<Expression>& inertia, const std::vector<Described>& more) {
+    Mechanism m;
+    m.add(Revolute{"first", "inertial", "A", axisX});
+    m.add(Link{"shaft", "A", "E", {0.5, 0.0, 0.0}});
+    m.add(Revolute{"second", "E", "B", axisX});
+    m.add(Revolute{"across", "B", "C", axisY});
+    for (const char* frame : {"A", "B", "C"})
+      m.add(Mass{
+          std::string("of") + frame, frame, 1.0, {0.0, 0.0, 0.0}, {inertia[0], inertia[1], inertia[2], 0.0, 0.0, 0.0}});
+    for (const Described& element : more) m.add(element);
+    std::string names;
+    for (const Skeleton::Part& part : skeletonOf(m).parts)
+      if (part.kind == Kind::wheel) names += part.name + " ";
+    return names;
+  };
+  const std::vector<Expression> ball{0.1, 0.1, 0.1}, bar{0.1, 0.1, 0.0}, disc{0.1, 0.05, 0.05};
+  const Described spring = JointSpring{"spring", "first", 3.0, 0.0, 0.1}, motor = Motor{"motor", "first", 1.0},
+                  drive = Drive{"drive", "first", Expression::parse("3 rad/s*t")},
+                  gear = Coupling{"gear", "second", "across", 2.0};
+  for (const std::vector<Expression>& inertia : {ball, disc}) EXPECT_EQ(wheels(inertia, {spring}), "");
+  EXPECT_EQ(wheels(disc, {motor}), "ofA ofB ") << "what hangs on a shaft turns with it";
+  EXPECT_EQ(wheels(disc, {drive}), "ofA ofB ");
+  EXPECT_EQ(wheels(bar, {motor}), "");
+  EXPECT_EQ(wheels(ball, {gear}), "ofB ofC ");
 }
 
 std::vector<Skeleton::Part> partsOfKind(const Skeleton& skeleton, Kind kind) {
