@@ -141,7 +141,8 @@ class Seen final : public Onlooker {
 
 class Finder {
  public:
-  explicit Finder(const Mechanism& mechanism) : mechanism_(mechanism) {
+  Finder(const Mechanism& mechanism, const std::vector<std::string>& freeParameters)
+      : mechanism_(mechanism), freeParameters_(freeParameters) {
     for (Described element : mechanism.elements()) take(element);
     for (const Disc& disc : discs_)
       if (isMeantToTurn(disc.frame))
@@ -193,7 +194,7 @@ class Finder {
     for (const Seen::Gearing& gearing : seen.gears) addGear(element, gearing);
     for (const Seen::Plane& contact : seen.planes) addPlane(element, contact);
     for (const Seen::Profile& road : seen.profiles)
-      if (!isNothing(road.speed)) addProfile(element, road);
+      if (!isNothing(road.speed) || isFree(road.speed)) addProfile(element, road);
     for (const auto& [at, turns, slides] : seen.joints) {
       if (turns < 3) addAxes(name, seen);
       const std::size_t place = pointOf(name + ".at", at);
@@ -204,6 +205,11 @@ class Finder {
   bool isNothing(const Expression& number) const {
     const Interval range = mechanism_.rangeOf(number);
     return range.lower() == 0 && range.upper() == 0;
+  }
+
+  bool isFree(const Expression& number) const {
+    return std::ranges::any_of(freeParameters_,
+                               [&](const std::string& name) { return mechanism_.dependsOn(number, name); });
   }
 
   void addLine(const Described& element, Skeleton::Kind kind, const Seen::Line& line) {
@@ -419,6 +425,7 @@ class Finder {
   };
 
   const Mechanism& mechanism_;
+  const std::vector<std::string>& freeParameters_;
   std::vector<std::string> ground_{Mechanism::inertialFrame};  // frames
   std::map<std::string, Turning> turning_;                     // frames
   std::set<std::string> driven_;                               // elements of joints
@@ -471,7 +478,7 @@ void join(Skeleton& skeleton, const Program& positions) {
 }  // namespace
 
 Skeleton skeletonOf(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
-  Skeleton skeleton = Finder(mechanism).skeleton;
+  Skeleton skeleton = Finder(mechanism, freeParameters).skeleton;
   if (skeleton.points.empty()) return skeleton;
   const int states = static_cast<int>(mechanism.stateNames().size()),
             parameters = static_cast<int>(freeParameters.size());

@@ -72,29 +72,66 @@ double reachOf(const Places& places, std::size_t points, double speed) {
   return size > 0 ? size : 0.25 * std::fabs(speed) * places.time.back();
 }
 
-/// What lies ahead by s is met s/v later: heights at all times, those before and behind the motion's too.
+/// The profiles of a machine.
+class Roads {
+ public:
+  explicit Roads(const Run& run, const Program& heights)
+      : run_(run),
+        states_(static_cast<std::ptrdiff_t>(run.machine.states)),
+        start_(run.machine.motion.nominal.begin(), run.machine.motion.nominal.begin() + states_),
+        evaluate_(heights) {}
+
+  /// What lies ahead by s is met s/v later: heights at all times, those before and behind the motion's too. Of a
+  /// machine that stands as long as all is nominal, those that it meets from the start at the greatest speed it may
+  /// have: they stay where they are, as it does.
+  std::vector<double> heights(std::size_t number, const Expression& speed, const PictureResult& machine,
+                              double& reach) {
+    const Places& places = machine.places;
+    setParameters(speed, false);
+    double v = at(0, 2 * number + 1);
+    const bool stands = v == 0;
+    if (stands) setParameters(speed, true);
+    if (stands) v = at(0, 2 * number + 1);
+    reach = reachOf(places, machine.points.size(), v);
+    std::vector<double> all;
+    for (const double time : places.time)
+      for (const double step : places.step) {
+        const double now = stands ? 0 : time, then = v == 0 ? now : now + step * reach / v;
+        all.push_back(at(then, 2 * number) - at(now, 2 * number));
+      }
+    return all;
+  }
+
+ private:
+  double at(double t, std::size_t output) { return evaluate_(t, start_)[output]; }
+
+  void setParameters(const Expression& speed, bool isFastest) {
+    const Machine& machine = run_.machine;
+    std::vector<double> parameters(machine.motion.nominal.begin() + states_, machine.motion.nominal.end());
+    for (std::size_t i = 0; i < machine.freeParameters.size() && i < parameters.size(); ++i)
+      if (isFastest && run_.study.mechanism.dependsOn(speed, machine.freeParameters[i]))
+        parameters[i] = machine.box[machine.states + i].upper();
+    evaluate_.setParameters(parameters);
+  }
+
+  const Run& run_;
+  std::ptrdiff_t states_;
+  std::vector<double> start_;
+  Evaluator<double> evaluate_;
+};
+
 void lookAlongProfiles(const Run& run, const Seen& seen, PictureResult& machine) {
-  const std::vector<double>& start = run.machine.motion.nominal;
-  const auto states = static_cast<std::ptrdiff_t>(run.machine.motion.motion.f.states());
   if (seen.heights.outputs() == 0) return;
   const Program heights = run.machine.alongCourses(seen.heights);
-  Places& places = machine.places;
   for (std::size_t k = 0; k <= 2 * seenSteps; ++k)
-    places.step.push_back(static_cast<double>(k) / static_cast<double>(seenSteps) - 1);
-  Evaluator<double> evaluate(heights);
-  evaluate.setParameters(std::vector<double>(start.begin() + states, start.end()));
-  std::size_t number = 0;
+    machine.places.step.push_back(static_cast<double>(k) / static_cast<double>(seenSteps) - 1);
+  Roads roads(run, heights);
   const std::vector<Skeleton::Part>& parts = seen.skeleton.parts;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].kind != Skeleton::Kind::profile) continue;
-    const double speed = midpoint(run.study.mechanism.rangeOf(parts[i].speed));
-    ProfileInfo profile{printable(parts[i].name), i, reachOf(places, machine.points.size(), speed), {}};
-    const auto heightAt = [&](double t) { return evaluate(t, {start.begin(), start.begin() + states})[number]; };
-    for (const double now : places.time)
-      for (const double step : places.step)
-        profile.heights.push_back(heightAt(now + step * profile.reach / speed) - heightAt(now));
+    ProfileInfo profile{printable(parts[i].name), i, 0, {}};
+    profile.heights = roads.heights(machine.profiles.size(), parts[i].speed, machine, profile.reach);
     machine.profiles.push_back(std::move(profile));
-    ++number;
   }
 }
 

@@ -45,10 +45,13 @@ Seen whatIsSeen(const Machine& machine) {
   const auto isProfile = [](const Skeleton::Part& part) { return part.kind == Skeleton::Kind::profile; };
   const auto profiles = static_cast<std::size_t>(std::ranges::count_if(skeleton.parts, isProfile));
   if (profiles == 0) return seen;
-  seen.heights = recordedOf(machine, profiles, [&](const Moved& moved) {
+  seen.heights = recordedOf(machine, 2 * profiles, [&](const Moved& moved) {
     std::vector<Recorded> all;
-    for (const Skeleton::Part& part : skeleton.parts)
-      if (isProfile(part)) all.push_back(moved.output(part.height));
+    for (const Skeleton::Part& part : skeleton.parts) {
+      if (!isProfile(part)) continue;
+      all.push_back(moved.output(part.height));
+      all.push_back(moved.number(part.speed));
+    }
     return all;
   });
   return seen;

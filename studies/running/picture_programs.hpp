@@ -17,7 +17,7 @@ struct Seen {
   std::vector<double> at;          ///< s: those times
   Program positions, velocities;   ///< x, y, z of every point [m, m/s]
   Program drawn;                   ///< positions, then the unit vectors of the axes
-  Program heights;                 ///< of the profiles, in their order [m]
+  Program heights;                 ///< of each profile, in their order, the height [m] and the speed [m/s]
   bool isEnclosed = false;         ///< the places of all points are to be bounded
 
   bool empty() const { return skeleton.parts.empty(); }

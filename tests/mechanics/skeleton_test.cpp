@@ -314,7 +314,7 @@ TEST(Skeleton, ShowsThePlanesThatAreTouched) {
   EXPECT_EQ(shapes[0].from, planes[0].to);
 }
 
-/// Where a slide is driven and a speed is given: what stands still is no road.
+/// Where a slide is driven and a speed is given: what stands still is no road, unless it may go.
 TEST(Skeleton, ShowsARoadWhereADriveSaysSo) {
   Mechanism m;
   m.add(Prismatic{"lift", "inertial", "ground", axisZ});
@@ -323,6 +323,9 @@ TEST(Skeleton, ShowsARoadWhereADriveSaysSo) {
   m.add(Drive{"road", "lift", Expression::parse("0.1 m*sin(3 rad/s*t)"), {5.0, Axis(-1, 0, 0)}});
   m.add(Drive{"shaker", "slide", Expression::parse("0.1 m*sin(3 rad/s*t)")});
   m.add(Drive{"turning", "cam", Expression::parse("3 rad/s*t")});
+  m.addParameter("speed", Interval(0.0), "m/s");
+  m.add(Prismatic{"post", "inertial", "top", Axis(0, 0, -2)});
+  m.add(Drive{"standing", "post", Expression::parse("0.1 m*sin(3 rad/s*t)"), {Expression::parse("2*speed"), axisX}});
   const Skeleton skeleton = skeletonOf(m);
   const auto roads = partsOfKind(skeleton, Kind::profile);
   ASSERT_EQ(roads.size(), 1u);
@@ -333,6 +336,9 @@ TEST(Skeleton, ShowsARoadWhereADriveSaysSo) {
   EXPECT_THAT(axesOfPart(skeleton, "road"), ElementsAre("road.up", "road.along"));
   const auto along = std::ranges::find(skeleton.axes, std::string("road.along"), &Skeleton::JointAxis::name);
   EXPECT_EQ(along->axis.direction()[0], -1);
+  const auto uncertain = partsOfKind(skeletonOf(m, {"speed"}), Kind::profile);
+  ASSERT_EQ(uncertain.size(), 2u);
+  EXPECT_EQ(uncertain[1].name, "standing");
 }
 
 /// Two arms that a pin holds together at a point of one of them, and a rod from there to the ground.

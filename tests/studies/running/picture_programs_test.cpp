@@ -190,10 +190,7 @@ samples = 8
   EXPECT_THAT(machine.points, IsEmpty());
 }
 
-/// What lies ahead by s is what the drive comes to s/v later, also behind the end of the motion, and ahead of its
-/// start.
-TEST(SeenMachine, TellsTheRoadAheadAndBehind) {
-  const Results results = seenResults(R"toml([study]
+const char* const roadStudy = R"toml([study]
 analysis = "dynamics"
 horizon = 0.5
 output_step = 0.1
@@ -239,7 +236,12 @@ interval = "± 1 %"
 quantity = "tyre.displacement"
 [stochastic]
 samples = 8
-)toml");
+)toml";
+
+/// What lies ahead by s is what the drive comes to s/v later, also behind the end of the motion, and ahead of its
+/// start.
+TEST(SeenMachine, TellsTheRoadAheadAndBehind) {
+  const Results results = seenResults(roadStudy);
   const PictureResult& machine = results.picture;
   ASSERT_EQ(machine.profiles.size(), 1u);
   const ProfileInfo& road = machine.profiles[0];
@@ -254,6 +256,25 @@ samples = 8
       const double now = places.time[row], then = now + 0.5 * places.step[k] / 5.0;
       EXPECT_NEAR(road.heights[row * places.step.size() + k], 0.1 * (std::sin(3 * then) - std::sin(3 * now)), 1e-15);
     }
+}
+
+/// Of a speed that is 0 in the middle of its range: the road that it meets at the greatest, which stays where it is.
+TEST(SeenMachine, TellsTheRoadOfAMachineThatStands) {
+  std::string text = roadStudy;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("[[mechanism.element]]", "[mechanism.parameters]\nspeed = \"0 km/h\"\n[[mechanism.element]]");
+  replace("0.1 m*sin(3 rad/s*t)", "0.1 m*sin(0.6 rad/m*speed*t)");
+  replace("profile_speed = \"18 km/h\"", "profile_speed = \"speed\"");
+  replace("[[output]]", "[[uncertain]]\nquantity = \"speed\"\ninterval = \"± 18 km/h\"\n[[output]]");
+  const PictureResult machine = seenResults(text).picture;
+  ASSERT_EQ(machine.profiles.size(), 1u);
+  const ProfileInfo& road = machine.profiles[0];
+  const std::vector<double>& step = machine.places.step;
+  ASSERT_EQ(road.heights.size(), machine.places.time.size() * step.size());
+  for (std::size_t i = 0; i < road.heights.size(); ++i)
+    EXPECT_NEAR(road.heights[i], 0.1 * std::sin(0.6 * 0.5 * step[i % step.size()]), 1e-15);
 }
 
 TEST(SeenMachine, OfManyPointsShowsFewerTimesAndEnclosesNone) {
