@@ -121,16 +121,21 @@ bool isKnown(const Place& place) {
 
 namespace {
 
-/// Of a wheel about an axis, where it is at the start: the spoke behind the axis and one across it, to either side.
+/// Eight places of the rim of a wheel about an axis, wherever it goes.
 void addRim(const PictureResult& machine, std::size_t point, std::size_t axis, double radius,
             std::vector<Place>& places) {
   const std::size_t axes = machine.axes.size();
-  const Place centre = placeOf(machine.places.nominal, 0, machine.points.size(), point),
-              axle = placeOf(machine.places.axes, 0, axes, axis),
-              spoke = placeOf(machine.places.axes, 0, axes, axis + 1);
-  for (const Place& across : {spoke, cross(axle, spoke)})
-    for (const double along : {radius, -radius})
-      if (const Place rim = minus(centre, times(across, along)); isKnown(rim)) places.push_back(rim);
+  for (std::size_t row = 0; row < std::max<std::size_t>(1, machine.places.time.size()); ++row) {
+    const Place centre = placeOf(machine.places.nominal, row, machine.points.size(), point),
+                axle = placeOf(machine.places.axes, row, axes, axis),
+                spoke = placeOf(machine.places.axes, row, axes, axis + 1);
+    const Place across = cross(axle, spoke);
+    const double half = std::sqrt(0.5);
+    for (const Place& way : {spoke, across, minus(times(spoke, half), times(across, half)),
+                             minus(times(spoke, half), times(across, -half))})
+      for (const double along : {radius, -radius})
+        if (const Place rim = minus(centre, times(way, along)); isKnown(rim)) places.push_back(rim);
+  }
 }
 
 void addRims(const PictureResult& machine, std::vector<Place>& places) {

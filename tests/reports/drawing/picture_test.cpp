@@ -501,6 +501,35 @@ TEST(MachinePicture, FitsOnThePaperWhateverTheSize) {
     }
 }
 
+/// A wheel is seen as a whole wherever it rolls, however large it is against its way.
+TEST(MachinePicture, FollowsWheelsThatRoll) {
+  for (const double radius : {0.01, 0.3, 1.0, 3.0, 30.0})
+    for (const double lean : {0.0, 0.5}) {
+      PictureResult m = moving({});
+      m.parts.push_back({"coin", "rolling-wheel", PartKind::wheel, 0, 0, 0, 0, 0, "", radius});
+      m.axes = {{"coin.axle", 1}, {"coin.spoke", 1}};
+      for (int row = 0; row <= 20; ++row) {
+        const double x = 0.1 * row, turn = x / radius, c = std::cos(turn), s = std::sin(turn);
+        m.places.time.push_back(row);
+        m.places.nominal.insert(m.places.nominal.end(), {x, 0, radius * std::cos(lean)});
+        for (const double e : {0.0, std::cos(lean), std::sin(lean), c, s * std::sin(lean), -s * std::cos(lean)})
+          m.places.axes.push_back(e);
+      }
+      const Scene scene = sceneOf(m);
+      const auto wheel = std::ranges::find(scene.shapes, Shape::Form::wheel, &Shape::form);
+      ASSERT_NE(wheel, scene.shapes.end());
+      for (std::size_t row = 0; row < scene.time.size(); ++row) {
+        std::istringstream path(attributesOf(scene, *wheel, {row, scene.view.right, scene.view.up})[0].second);
+        for (char letter = 0; path >> letter && letter != 'Z';) {
+          double x = 0, y = 0;
+          path >> x >> y;
+          EXPECT_TRUE(x > 0 && x < scene.view.width && y > 0 && y < scene.view.height)
+              << radius << " " << lean << " " << row << ": " << x << " " << y;
+        }
+      }
+    }
+}
+
 TEST(MachinePicture, OfOnePlaceIsThereToo) {
   const std::string svg = drawn(moving({{1, 2, 3}, {1, 2, 3}}));
   EXPECT_THAT(svg, AllOf(HasSubstr("class=\"mass\""), Not(HasSubstr("nan")), Not(HasSubstr("class=\"scale\""))));
