@@ -79,18 +79,6 @@ class Examiner {
   }
 
  private:
-  static CellQuestion withBesides(const FlowModels& models, CellQuestion question,
-                                  const std::vector<CellQuantity>& quantities) {
-    std::vector<char> isOwned(models.symbols, 0);
-    for (const CellQuantity& quantity : quantities)
-      if (const int symbol = models.components[quantity.component].symbol; symbol >= 0) isOwned[symbol] = 1;
-    for (int l = 0; l < models.symbols; ++l)
-      if (isOwned[l] == 0) question.besides.push_back(l);
-    // At one moment both ask for the same.
-    if (question.from == question.until) question.when = CellQuestion::When::always;
-    return question;
-  }
-
   struct Entry {
     double key;
     std::size_t number;  // so that the order depends on nothing else
@@ -617,6 +605,17 @@ class Examiner {
 };
 
 }  // namespace
+
+CellQuestion withBesides(const FlowModels& models, CellQuestion question, const std::vector<CellQuantity>& quantities) {
+  std::vector<char> isOwned(models.symbols, 0);
+  for (const CellQuantity& quantity : quantities)
+    if (const int symbol = models.components[quantity.component].symbol; symbol >= 0) isOwned[symbol] = 1;
+  for (int l = 0; l < models.symbols; ++l)
+    if (isOwned[l] == 0) question.besides.push_back(l);
+  // At one moment both ask for the same.
+  if (question.from == question.until) question.when = CellQuestion::When::always;
+  return question;
+}
 
 RequirementFinding examine(const FlowModels& models, const CellQuestion& question,
                            const std::vector<CellQuantity>& quantities, const RequirementOptions& options) {

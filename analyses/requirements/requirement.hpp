@@ -45,6 +45,9 @@ struct RequirementFinding {
   std::size_t cells = 0;          ///< that were looked at
 };
 
+/// What cells are asked for: what is said of these quantities holds whatever all else is.
+CellQuestion withBesides(const FlowModels& models, CellQuestion question, const std::vector<CellQuantity>& quantities);
+
 /// `quantities`: all numbers of the box with a symbol in the models, and those without that are uncertain.
 RequirementFinding examine(const FlowModels& models, const CellQuestion& question,
                            const std::vector<CellQuantity>& quantities, const RequirementOptions& options = {});

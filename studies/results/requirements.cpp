@@ -132,6 +132,20 @@ std::vector<Field> fieldsOfMargin(MarginInfo& m) {
           {"limit", &m.limit, unit::none, "that number, in the unit of that output"}};
 }
 
+std::vector<Field> fieldsOfCell(RequirementCell& c) {
+  return {{"number", &c.number, unit::none, "number of the cell", allowed::count},
+          {"requirement", &c.requirement, unit::none, "index of the requirement", allowed::count, "/requirements/name"},
+          {"word", Choice::of(c.word), unit::none,
+           "\"met\" or \"violated\" for all values in the cell, \"open\" where neither is proved"},
+          {"lower",
+           &c.lower,
+           unit::one,
+           "where the cell begins: -1 is the lower end of the quantity's interval, 1 the upper one",
+           {dimension::quantity},
+           {-1, 1}},
+          {"upper", &c.upper, unit::one, "where it ends", {dimension::quantity}, {-1, 1}}};
+}
+
 std::vector<Field> fieldsOfProof(RequirementsResult& r) { return r.fieldsAnd({}); }
 
 }  // namespace
@@ -171,6 +185,11 @@ void RequirementsResult::describe(std::vector<Group>& groups) {
            std::ranges::equal(r.aloneLower, r.aloneUpper, std::less_equal<>());
   };
   groups.push_back(groupOf("/requirements/proof", "how their proof ended", *this, fieldsOfProof));
+  groups.push_back(listOf("/requirements/cells", "parts of the uncertain box, of each requirement all of it",
+                          "/requirements/cells/number", cells, fieldsOfCell));
+  groups.back().makesSense = [this](std::size_t i) {
+    return std::ranges::equal(cells[i].lower, cells[i].upper, std::less_equal<>());
+  };
 }
 
 }  // namespace gamut

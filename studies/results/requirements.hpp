@@ -81,9 +81,23 @@ struct MarginInfo {
   bool isNumber = false;      ///< the limit is stated as a number, what lies there is none
 };
 
+/// A part of the box of the quantities, and what is proved there of a requirement: met or violated by all of their
+/// values, whatever varies in time does; else open.
+struct RequirementCell {
+  std::int64_t number = 0;
+  std::uint64_t requirement = 0;  ///< index
+  Decision word = Decision::open;
+  /// One a quantity: -1 and 1 are the ends of its interval, outward by a rounding; these of what varies in time.
+  std::vector<double> lower, upper;
+};
+
 /// Of all requirements, as the study states them. The part is not present, though they are there, where nothing was
 /// proved yet, and in files that were written before it was kept.
 struct RequirementsResult final : TimedPart, std::vector<RequirementResult> {
+  /// Those of a requirement together are the whole box; none where there are no models of all of its window, and in
+  /// older files.
+  std::vector<RequirementCell> cells;
+
   std::string title() const override { return "requirements"; }
   void describe(std::vector<Group>& groups) override;
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analyses/checkpoints.hpp"
+#include "analyses/requirements/decided_cells.hpp"
 #include "analyses/requirements/requirement.hpp"
 #include "analyses/requirements/start.hpp"
 #include "scalars/archive.hpp"
@@ -258,6 +259,7 @@ class RequirementProof {
     for (std::size_t r = 0; r < results_.requirements.size(); ++r)
       if (results_.requirements[r].word != Decision::met) proveViolation(r);
     proveAlone();
+    keepCells();
   }
 
  private:
@@ -325,8 +327,7 @@ class RequirementProof {
       if (result.word == Decision::met) std::ranges::fill(result.aloneLower, 1.0);
       if (result.word == Decision::violated) std::ranges::fill(result.aloneUpper, 0.0);
       const bool isOpen = result.word == Decision::open || result.word == Decision::partly;
-      const std::size_t reached = enclosure_.models ? enclosure_.models->at.size() : 0;
-      if (isOpen && reached > 0 && study_.times[reached - 1] >= result.until) asked.push_back(r);
+      if (isOpen && isModelled(result)) asked.push_back(r);
     }
     if (asked.empty() || run_.machine.constants.empty()) return;
     const Charge charge(&run_.spent.requirements);
@@ -356,6 +357,66 @@ class RequirementProof {
     result.aloneLower[quantity] = factor.lower();
     result.aloneUpper[quantity] = factor.upper();
     return static_cast<double>(Work::counted() - began);
+  }
+
+  /// Whether there are models of all of its window.
+  bool isModelled(const RequirementResult& result) const {
+    const std::size_t reached = enclosure_.models ? enclosure_.models->at.size() : 0;
+    return reached > 0 && study_.times[reached - 1] >= result.until;
+  }
+
+  /// What single parts of the box are proved to do, for who looks for a better design: with a little of the work that
+  /// is left, which takes none away from what comes later.
+  void keepCells() {
+    constexpr double share = 0.1, most = 0.5 * Work::perSecond;  // the latter of a requirement
+    if (run_.machine.constants.empty()) return;
+    CheckpointedTask checkpoint(run_.options.checkpoints);
+    const auto end = [&](Archive& all) { all(results_); };
+    if (checkpoint.recall(end, {}) == CheckpointedTask::Recalled::end) return;
+    const Work::Aside aside;
+    const std::shared_ptr<const FlowModels> known = enclosure_.models ? models() : nullptr;
+    const double work =
+        std::min(most, share * workForRequirements(run_) / static_cast<double>(study_.requirements.size()));
+    for (std::size_t r = 0; r < study_.requirements.size(); ++r) {
+      const RequirementResult& result = results_.requirements[r];
+      const std::vector<double> ends(study_.uncertain.size(), 1.0), starts(study_.uncertain.size(), -1.0);
+      if (result.word == Decision::met || result.word == Decision::violated)
+        addCell({0, r, result.word, starts, ends});
+      else if (isModelled(result) && work > 0)
+        keepCells(*known, r, work);
+    }
+    checkpoint.end(end);
+  }
+
+  void keepCells(const FlowModels& models, std::size_t number, double work) {
+    constexpr std::size_t most = 3000;
+    RequirementOptions options;
+    options.mostCells = most;
+    options.mostWork = work;
+    options.cancelled = run_.watch.stop();
+    const CellQuestion question = questionOf(study_, study_.requirements[number], models.at.size());
+    for (const auto& [part, verdict] : decidedCells(models, question, quantities(), options)) {
+      RequirementCell cell;
+      cell.requirement = number;
+      cell.word = verdict == Cell::Verdict::met        ? Decision::met
+                  : verdict == Cell::Verdict::violated ? Decision::violated
+                                                       : Decision::open;
+      cell.lower.assign(study_.uncertain.size(), -1.0);
+      cell.upper.assign(study_.uncertain.size(), 1.0);
+      for (const ConstantQuantity& of : run_.machine.constants) {
+        const int symbol = models.components[of.slot].symbol;
+        if (symbol < 0) continue;
+        cell.lower[of.number] = part.centre[symbol] - part.half[symbol];
+        cell.upper[of.number] = part.centre[symbol] + part.half[symbol];
+      }
+      addCell(std::move(cell));
+    }
+  }
+
+  void addCell(RequirementCell cell) {
+    std::vector<RequirementCell>& cells = results_.requirements.cells;
+    cell.number = static_cast<std::int64_t>(cells.size());
+    cells.push_back(std::move(cell));
   }
 
   /// What models of the margins say of one requirement; no less than what is known of it already.

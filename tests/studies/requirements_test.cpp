@@ -68,6 +68,74 @@ always = "hinge.angle^2 >= 0"
   EXPECT_EQ(study.outputs[7].quantity, "hinge.angle^2");
 }
 
+/// Of two uncertain quantities, with a requirement at the end that about half of the box meets, one that all of it
+/// meets and one that none does.
+Results withHalfMet() {
+  const auto text = [](double limit) {
+    return withRequirements(
+        "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 2 %\"\ndistribution = { type = \"uniform\" }\n"
+        "[[requirement]]\nname = \"partly\"\nfrom = 0.5\nalways = \"angle > " +
+        std::to_string(limit) +
+        " rad\"\n[[requirement]]\nname = \"met\"\nalways = \"hinge.rate > -9 rad/s\"\n"
+        "[[requirement]]\nname = \"violated\"\nalways = \"hinge.rate > 1 rad/s\"\n");
+  };
+  RunOptions options;
+  options.samples = 8;
+  const Bounds& angle = run(read(text(0)), options).interval.at;
+  options.samples = 400;
+  const std::size_t last = angle.lower.times - 1;
+  return run(read(text(0.5 * (angle.lower(last, 0) + angle.upper(last, 0)))), options);
+}
+
+/// No sample that violates a requirement lies in a cell that is met, and none that meets it in one that is violated.
+TEST(Requirements, KnowWhatIsProvedOfPartsOfTheBox) {
+  const Results results = withHalfMet();
+  const std::vector<RequirementCell>& cells = results.requirements.cells;
+  ASSERT_EQ(results.requirements[0].word, Decision::partly);
+  const KeptSamples& kept = results.stochastic.kept;
+  const std::size_t quantities = results.uncertain.size(), outputs = results.outputs.size(),
+                    times = results.time.size();
+  std::size_t met = 0, violated = 0;
+  for (std::size_t i = 0; i < kept.motionNumber.size(); ++i) {
+    const auto at =
+        static_cast<std::size_t>(std::ranges::find(kept.number, kept.motionNumber[i]) - kept.number.begin());
+    ASSERT_LT(at, kept.number.size());
+    const double margin = kept.motions[((i + 1) * times - 1) * outputs + results.requirements[0].margin];
+    for (const RequirementCell& cell : cells) {
+      bool isInside = cell.requirement == 0 && cell.word != Decision::open;
+      for (std::size_t q = 0; q < quantities && isInside; ++q) {
+        const UncertainInfo& of = results.uncertain[q];
+        const double x = (2 * kept.values[at * quantities + q] - of.lower - of.upper) / (of.upper - of.lower);
+        isInside = cell.lower[q] < x && x < cell.upper[q];
+      }
+      if (!isInside) continue;
+      ++(cell.word == Decision::met ? met : violated);
+      EXPECT_EQ(cell.word == Decision::met, margin > 0) << "sample " << kept.motionNumber[i];
+    }
+  }
+  EXPECT_GT(met, 100u);
+  EXPECT_GT(violated, 100u);
+  for (const auto& [number, word] : {std::pair(1u, Decision::met), {2u, Decision::violated}}) {
+    const auto cell = std::ranges::find(cells, number, &RequirementCell::requirement);
+    ASSERT_NE(cell, cells.end());
+    EXPECT_EQ(cell->word, word);
+    EXPECT_EQ(std::ranges::count(cells, number, &RequirementCell::requirement), 1);
+  }
+}
+
+/// As they were, and none where there are none, as in older files.
+TEST(Requirements, KeepWhatIsProvedOfPartsOfTheBox) {
+  Results results = withHalfMet();
+  const TemporaryFolder folder;
+  writeResults(results, folder.path("r.h5"));
+  EXPECT_THAT(differences(readResults(folder.path("r.h5")), results), ::testing::IsEmpty());
+  results.requirements.cells.clear();
+  writeResults(results, folder.path("older.h5"));
+  const Results older = readResults(folder.path("older.h5"));
+  EXPECT_TRUE(older.requirements.cells.empty());
+  EXPECT_THAT(differences(older, results), ::testing::IsEmpty());
+}
+
 /// "what > limit unit", with >= or <= where the limit is allowed; behind each other.
 std::string termsOf(const std::string& comparison) {
   const Study study =

@@ -172,6 +172,10 @@ inline Results sampleResults() {
   partly.estimate = {1024, 640, 380, 0.59, 0.66, 0.625};
   partly.violationLeast = 0.25;
   partly.violationMost = 0.5;
+  r.requirements.cells = {{0, 0, Decision::met, {-1}, {1}},
+                          {1, 1, Decision::violated, {-1}, {-0.5}},
+                          {2, 1, Decision::open, {-0.5}, {0}},
+                          {3, 1, Decision::met, {0}, {1}}};
   DistributionResult& d = r.distribution;
   d.present = true;
   d.wanted = 0.005;

@@ -10,6 +10,7 @@
 
 #include "analyses/flow/flow.hpp"
 #include "analyses/flow/image.hpp"
+#include "analyses/requirements/decided_cells.hpp"
 #include "tests/analyses/reference.hpp"
 
 namespace gamut::testing {
@@ -38,7 +39,8 @@ struct Question {
   std::size_t from = 0, until = 0;  // 0: the last
   RequirementOptions options = {};
 
-  RequirementFinding examine() {
+  template <class Ask>
+  auto asked(const Ask& ask) {
     FlowOptions flow;
     for (int i = 0; i < g.outputs(); ++i) flow.modelled.push_back(i);
     const Tube tube = Flow(f, g, flow).enclose(box, horizon, times);
@@ -56,7 +58,18 @@ struct Question {
       question.margins.push_back(i);
       question.isStrict.push_back(1);
     }
-    return gamut::examine(*tube.models(), question, quantities, options);
+    return ask(*tube.models(), question, quantities);
+  }
+
+  RequirementFinding examine() {
+    return asked([&](const auto& models, const auto& question, const auto& quantities) {
+      return gamut::examine(models, question, quantities, options);
+    });
+  }
+  std::vector<DecidedCell> cells() {
+    return asked([&](const auto& models, const auto& question, const auto& quantities) {
+      return decidedCells(models, question, quantities, options);
+    });
   }
 };
 
@@ -106,6 +119,55 @@ TEST(Requirement, HasItsProbabilityItsFactorAndItsPossibility) {
   EXPECT_LT(width(found.violationPossibility), 0.01);
   ASSERT_EQ(found.violating.size(), 2U);
   EXPECT_LT(found.violating[0] + found.violating[1], 1.25);
+}
+
+/// Cells are the whole box, and each says what holds at all of its points: x ends at a + b, a in [2, 3], b in [-1, 0].
+TEST(Requirement, IsDecidedInCellsThatAreTheWholeBox) {
+  for (const double limit : {0.9, 1.001, 1.25, 1.5, 1.6180339887, 2.999, 3.1})
+    for (const When when : {When::always, When::eventually})
+      for (const std::size_t most : {std::size_t{1}, std::size_t{10}, std::size_t{301}}) {
+        Question all = falling({2.0, 3.0}, {-1.0, 0.0}, [&](const auto& x) { return x - limit; });
+        all.when = when;
+        all.options.mostCells = most;
+        const std::vector<DecidedCell> cells = all.cells();
+        EXPECT_LE(cells.size(), most);
+        double volume = 0, decided = 0;
+        for (const auto& [part, verdict] : cells) {
+          ASSERT_EQ(part.half.size(), 2u);
+          volume += part.half[0] * part.half[1];
+          if (verdict == Cell::Verdict::open) continue;
+          decided += part.half[0] * part.half[1];
+          for (const double x : {-1, 1})
+            for (const double y : {-1, 1}) {
+              const double a = 2.5 + 0.5 * (part.centre[0] + x * part.half[0]),
+                           b = -0.5 + 0.5 * (part.centre[1] + y * part.half[1]);
+              const double least = when == When::always ? a + b : a;
+              EXPECT_EQ(verdict == Cell::Verdict::met, least > limit) << limit << " " << a << " " << b;
+            }
+        }
+        EXPECT_EQ(volume, 1) << "sides are halved";
+        if (most > 300) {
+          EXPECT_GT(decided, 0.9) << limit;
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i)
+          for (std::size_t j = 0; j < i; ++j) {
+            const auto apart = [&](std::size_t l) {
+              return std::fabs(cells[i].part.centre[l] - cells[j].part.centre[l]) >=
+                     cells[i].part.half[l] + cells[j].part.half[l];
+            };
+            EXPECT_TRUE(apart(0) || apart(1));
+          }
+      }
+}
+
+TEST(Requirement, KeepsFewCellsWhereLittleWorkIsAllowed) {
+  Question all = falling({2.0, 3.0}, {-1.0, 0.0}, [&](const auto& x) { return x - 1.25; });
+  all.options.mostWork = 0;
+  EXPECT_EQ(all.cells().size(), 1u);
+  std::atomic<bool> cancelled = true;
+  all.options = {};
+  all.options.cancelled = &cancelled;
+  EXPECT_EQ(all.cells().size(), 1u);
 }
 
 TEST(Requirement, IsViolatedInACornerThatSamplesMiss) {

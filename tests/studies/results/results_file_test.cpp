@@ -62,7 +62,19 @@ TEST_F(ResultsFile, HoldsRequirementsWithoutTheirProof) {
   results.requirements.assign(requirements.begin(), requirements.end());
   writeResults(results, path_);
   EXPECT_THAT(differences(readResults(path_), results), IsEmpty());
-  EXPECT_THAT(differences(results, sampleResults()), ::testing::ElementsAre("/requirements/proof"));
+  EXPECT_THAT(differences(results, sampleResults()),
+              ::testing::ElementsAre("/requirements/proof", "/requirements/cells"));
+}
+
+TEST_F(ResultsFile, WithACellThatIsNoneIsRefused) {
+  for (const RequirementCell& cell : {RequirementCell{4, 2, Decision::met, {0}, {1}},
+                                      {4, 1, Decision::met, {0.5}, {0}},
+                                      {4, 1, Decision::met, {0}, {1.5}}}) {
+    Results results = sampleResults();
+    results.requirements.cells.push_back(cell);
+    writeResults(results, path_);
+    EXPECT_THROW(readResults(path_), std::runtime_error);
+  }
 }
 
 TEST_F(ResultsFile, WithADisputeOverACutThatIsNotThereIsRefused) {

@@ -154,7 +154,10 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(r.comparison, fields["/comparison"], r.comparison.present, r.comparison.disputed), padding);
   EXPECT_LE(longestGap(r.comparison.disputed[0], fields["/comparison/disputed"]), padding);
   const std::vector<RequirementResult>& requirements = r.requirements;
-  EXPECT_LE(longestGap(r.requirements, fields["/requirements/proof"], r.requirements.present, requirements), padding);
+  EXPECT_LE(longestGap(r.requirements, fields["/requirements/proof"], r.requirements.present, requirements,
+                       r.requirements.cells),
+            padding);
+  EXPECT_LE(longestGap(r.requirements.cells[0], fields["/requirements/cells"]), padding);
   EXPECT_LE(longestGap(requirements[0], fields["/requirements"]), padding);
   EXPECT_LE(longestGap(r.libraries[0], fields["/study/libraries"]), padding);
   EXPECT_LE(longestGap(r.costs[0], fields["/study/costs"]), padding);
