@@ -1,7 +1,7 @@
 // Which samples go through the ranges that are chosen of axes, and what keys make of a range.
 "use strict";
 
-/** @typedef {{name: string, unit: string, isQuantity: boolean, limits: number[], values: (number | null)[]}} Axis */
+/** @typedef {{name: string, unit: string, isQuantity: boolean, ends: number[], limits: number[], values: (number | null)[]}} Axis */
 /** @typedef {[number, number]} Range */
 
 /** A text in lines of so many letters at most, where words let it. @param {string} text @param {number} letters */
@@ -16,9 +16,9 @@ export const wrapped = (text, letters) => {
   return lines;
 };
 
-/** From the least to the greatest of an axis, its limits among them. @param {Axis} axis @returns {Range} */
-export const extentOf = ({ values, limits }) => {
-  const known = [...values.filter(x => x != null), ...limits];
+/** From the least to the greatest of an axis, its limits and the ends of its interval among them. @param {Axis} axis @returns {Range} */
+export const extentOf = ({ values, limits, ends }) => {
+  const known = [...values.filter(x => x != null), ...limits, ...ends];
   const low = Math.min(...known), high = Math.max(...known), room = high > low ? 0 : Math.abs(low) || 1;
   return known.length === 0 ? [0, 1] : [low - room, high + room];
 };
@@ -47,3 +47,12 @@ export const movedRange = (key, isWider, range, [low, high]) => {
   if (until + by >= high) return [high - span, high];
   return from + by <= low ? [low, low + span] : [from + by, until + by];
 };
+
+/**
+ * Four numbers each, with both axes exchanged if the map is turned.
+ * @param {number[]} list @param {boolean} isTurned @returns {[number, number, number, number][]}
+ */
+export const rectanglesOf = (list, isTurned) => Array.from({ length: list.length / 4 }, (_, i) => {
+  const [x, y, width, height] = list.slice(4 * i, 4 * i + 4);
+  return isTurned ? [y, x, height, width] : [x, y, width, height];
+});

@@ -3,13 +3,16 @@
 // outputs' plots. Below, two quantities as a map. Samples that violate the requirement are dashed and red, and crosses.
 "use strict";
 
-import { chosenOf, extentOf, movedRange, wrapped } from "./choice.js";
+import { chosenOf, extentOf, movedRange, rectanglesOf, wrapped } from "./choice.js";
 import { all, chooseCurves, made, one } from "./dom.js";
 
 /** @typedef {import("./choice.js").Axis} Axis */
 /** @typedef {import("./choice.js").Range} Range */
 /** A state each sample: "+" met, "-" violated, "?" it did not arrive.
- * @typedef {{name: string, states: string, met: Range[] | null, violated: (number | null)[]}} Requirement */
+ * @typedef {{name: string, states: string, met: Range[] | null, violated: (number | null)[], cells: Cells | null}} Requirement */
+/** Of each pair of quantities, "0 1", places of a square that are met, and that are violated, whatever the others are: each four
+ * numbers, left, bottom, width, height.
+ * @typedef {{size: number, count: number, open: number, maps: Record<string, [number[], number[]]>}} Cells */
 /** @typedef {{low: number | null, step: number, lines: (number | null)[][]}} Curves */
 /** @typedef {{samples: string[], axes: Axis[], requirements: Requirement[], curves: {time: number[]} & Record<string, Curves>}} Explored */
 
@@ -209,6 +212,7 @@ class Explorer {
     /** @param {number} y */
     const down = y => 10 + height * (y1 - y) / (y1 - y0);
     svgShape("rect", { class: "frame", x: left, y: 10, width: size, height }, svg);
+    this.drawCells(svg, right, down);
     this.drawProved(svg, right, down);
     this.points = new Map(samples.map((_, i) => {
       const x = right(axes[this.across].values[i] ?? NaN), y = down(axes[this.upward].values[i] ?? NaN), kind = this.kindOf(i);
@@ -224,7 +228,52 @@ class Explorer {
     svgShape("text", { class: "middle bar", x: left + size / 2, y: height + 42 }, svg).textContent = words(axes[this.across]);
     const turned = "translate(14 " + (10 + height / 2) + ") rotate(-90)";
     svgShape("text", { class: "middle bar", transform: turned }, svg).textContent = words(axes[this.upward]);
-    made("p", { className: "hint", textContent: this.wordsOfMap() }, this.map);
+    const said = made("div", {}, this.map);
+    this.drawKeyOfMap(said);
+    made("p", { className: "hint", textContent: this.wordsOfMap() }, said);
+  }
+
+  /** @param {HTMLElement} place */
+  drawKeyOfMap(place) {
+    const { cells } = this.requirement ?? { cells: null };
+    if (!cells) return;
+    const keys = made("ul", { className: "keys" }, place), areas = this.places().map(places => places.reduce((sum, [, , w, h]) => sum + w * h, 0));
+    const shares = [...areas, cells.size * cells.size - areas[0] - areas[1]].map(area => Math.round(100 * area / (cells.size * cells.size)));
+    const others = this.explored.axes.filter(({ isQuantity }) => isQuantity).length > 2 ? ", whatever the other quantities are" : "";
+    [["met", "proved to be met"], ["violated", "proved to be violated"], ["undecided", "undecided, or it depends on the other quantities"]]
+      .forEach(([kind, words], k) => {
+        const item = made("li", {}, keys);
+        made("span", { className: "swatch hatched-" + kind }, item);
+        item.append(words + (k < 2 ? others : "") + ": " + shares[k] + " % of the map");
+      });
+  }
+
+  /** The places of the map that are met, and that are violated. @returns {[number, number, number, number][][]} */
+  places() {
+    const { cells } = this.requirement ?? { cells: null }, { across, upward } = this, isTurned = across > upward;
+    if (!cells || across === upward) return [[], []];
+    return cells.maps[Math.min(across, upward) + " " + Math.max(across, upward)].map(list => rectanglesOf(list, isTurned));
+  }
+
+  /** Where a proof is known: hatched, once where the requirement is met, twice where it is violated. @param {Element} svg
+   * @param {(x: number) => number} right @param {(y: number) => number} down */
+  drawCells(svg, right, down) {
+    const { cells } = this.requirement ?? { cells: null }, { axes } = this.explored;
+    if (!cells) return;
+    const { size } = cells, [a, b] = axes[this.across].ends, [c, d] = axes[this.upward].ends;
+    /** @param {number} place */
+    const x = place => right(a + (b - a) * place / size).toFixed(1);
+    /** @param {number} place */
+    const y = place => down(c + (d - c) * place / size).toFixed(1);
+    const defs = svgShape("defs", {}, svg);
+    this.places().forEach((places, k) => {
+      const kind = k === 0 ? "met" : "violated", id = "hatch-" + kind;
+      const pattern = svgShape("pattern", { id, class: id, width: 7, height: 7, patternUnits: "userSpaceOnUse" }, defs);
+      svgShape("rect", { width: 7, height: 7 }, pattern);
+      svgShape("path", { d: k === 0 ? "M-1 8L8 -1" : "M-1 8L8 -1M-1 -1L8 8" }, pattern);
+      const path = places.map(([l, t, w, h]) => "M" + x(l) + " " + y(t) + "H" + x(l + w) + "V" + y(t + h) + "H" + x(l) + "Z").join("");
+      svgShape("path", { class: "cells " + kind, d: path }, svg);
+    });
   }
 
   /** @param {Element} svg @param {(x: number) => number} right @param {(y: number) => number} down */
@@ -248,7 +297,13 @@ class Explorer {
     if (violated[this.across] != null && violated[this.upward] != null) {
       words.push("Filled diamond: values for which it is proved to be violated.");
     }
-    if (this.requirement) words.push("Elsewhere the results hold no proof for single places.");
+    if (this.requirement?.cells) {
+      const { count, open } = this.requirement.cells;
+      words.push("Of " + count + (count === 1 ? " part" : " parts") + " of the box that were looked at, " + (open || "none") +
+        (open === 1 ? " is" : " are") + " undecided.");
+    } else if (this.requirement) {
+      words.push("Elsewhere the results hold no proof for single places.");
+    }
     return words.join(" ");
   }
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "reports/page/decided_map.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/table.hpp"
 #include "reports/requirements.hpp"
@@ -237,10 +238,46 @@ class SampleExplorer {
   std::string axesData() const {
     std::vector<std::string> texts;
     for (const ExplorerAxis& axis : axes_)
-      texts.push_back(fmt::format("{{\"name\":{},\"unit\":{},\"isQuantity\":{},\"limits\":{},\"values\":{}}}",
-                                  jsonText(axis.name), jsonText(axis.unit), axis.quantity ? "true" : "false",
-                                  numbersList(axis.limits), numbersList(axis.values)));
+      texts.push_back(
+          fmt::format("{{\"name\":{},\"unit\":{},\"ends\":{},\"isQuantity\":{},\"limits\":{},\"values\":{}}}",
+                      jsonText(axis.name), jsonText(axis.unit), numbersList(endsOf(axis)),
+                      axis.quantity ? "true" : "false", numbersList(axis.limits), numbersList(axis.values)));
     return fmt::format("[{}]", fmt::join(texts, ",\n"));
+  }
+
+  /// Of the interval of a quantity, told.
+  std::vector<double> endsOf(const ExplorerAxis& axis) const {
+    if (!axis.quantity) return {};
+    const UncertainInfo& q = results_.uncertain[*axis.quantity];
+    return {Told(q).of(q.lower), Told(q).of(q.upper)};
+  }
+
+  /// Maps of each pair of quantities' axes, the former to the right: rectangles that are met, and that are violated.
+  std::string cellsData(std::size_t requirement) const {
+    constexpr int finest = 64, coarse = 32;  // the latter where there are many maps
+    constexpr std::size_t few = 5;
+    std::vector<const RequirementCell*> cells;
+    for (const RequirementCell& cell : results_.requirements.cells)
+      if (cell.requirement == requirement) cells.push_back(&cell);
+    if (cells.empty()) return "null";
+    std::vector<std::size_t> quantities;
+    for (const ExplorerAxis& axis : axes_)
+      if (axis.quantity) quantities.push_back(*axis.quantity);
+    const int size = quantities.size() <= few ? finest : coarse;
+    std::vector<std::string> maps;
+    for (std::size_t i = 0; i < quantities.size(); ++i)
+      for (std::size_t j = i + 1; j < quantities.size(); ++j) {
+        const DecidedMap map = decidedMap(cells, quantities[i], quantities[j], size);
+        maps.push_back(fmt::format("\"{} {}\":[{},{}]", i, j, rectanglesList(map.met), rectanglesList(map.violated)));
+      }
+    const auto open = std::ranges::count(cells, Decision::open, [](const RequirementCell* cell) { return cell->word; });
+    return fmt::format("{{\"size\":{},\"count\":{},\"open\":{},\"maps\":{{{}}}}}", size, cells.size(), open,
+                       fmt::join(maps, ","));
+  }
+  static std::string rectanglesList(const std::vector<DecidedMap::Rectangle>& all) {
+    std::vector<int> numbers;
+    for (const DecidedMap::Rectangle& one : all) numbers.insert(numbers.end(), one.begin(), one.end());
+    return fmt::format("[{}]", fmt::join(numbers, ","));
   }
 
   /// Of each quantity's axis, told: where a requirement is proved to be met while no quantity deviates by more, and
@@ -270,8 +307,8 @@ class SampleExplorer {
       std::string states;
       for (const ExploredSample& sample : samples_)
         states += std::isnan(sample.margins[k]) ? '?' : isMissed(requirement, sample.margins[k]) ? '-' : '+';
-      texts.push_back(fmt::format("{{\"name\":{},\"states\":\"{}\",{}}}", jsonText(requirement.name), states,
-                                  provedData(requirement)));
+      texts.push_back(fmt::format("{{\"name\":{},\"states\":\"{}\",{},\"cells\":{}}}", jsonText(requirement.name),
+                                  states, provedData(requirement), cellsData(shown_[k])));
     }
     return fmt::format("[{}]", fmt::join(texts, ",\n"));
   }

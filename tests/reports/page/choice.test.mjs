@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { chosenOf, extentOf, movedRange, wrapped } from "../../../reports/page/choice.js";
+import { chosenOf, extentOf, movedRange, rectanglesOf, wrapped } from "../../../reports/page/choice.js";
 
 test("names are wrapped between words", () => {
   assert.deepEqual(wrapped("acceleration of the body at its worst", 13), ["acceleration", "of the body", "at its worst"]);
@@ -10,10 +10,17 @@ test("names are wrapped between words", () => {
 });
 
 test("axes hold their values and limits, and have an extent where all are alike", () => {
-  assert.deepEqual(extentOf({ values: [1, null, 3], limits: [5] }), [1, 5]);
-  assert.deepEqual(extentOf({ values: [2, 2], limits: [] }), [0, 4]);
-  assert.deepEqual(extentOf({ values: [0, 0], limits: [] }), [-1, 1]);
-  assert.deepEqual(extentOf({ values: [null], limits: [] }), [0, 1]);
+  assert.deepEqual(extentOf({ values: [1, null, 3], limits: [5], ends: [] }), [1, 5]);
+  assert.deepEqual(extentOf({ values: [1, null, 3], limits: [], ends: [0.5, 3.5] }), [0.5, 3.5]);
+  assert.deepEqual(extentOf({ values: [2, 2], limits: [], ends: [] }), [0, 4]);
+  assert.deepEqual(extentOf({ values: [0, 0], limits: [], ends: [] }), [-1, 1]);
+  assert.deepEqual(extentOf({ values: [null], limits: [], ends: [] }), [0, 1]);
+});
+
+test("places of a map are exchanged where its axes are", () => {
+  assert.deepEqual(rectanglesOf([1, 2, 3, 4, 5, 6, 7, 8], false), [[1, 2, 3, 4], [5, 6, 7, 8]]);
+  assert.deepEqual(rectanglesOf([1, 2, 3, 4], true), [[2, 1, 4, 3]]);
+  assert.deepEqual(rectanglesOf([], true), []);
 });
 
 test("samples are chosen that go through all ranges; those without a value go through none", () => {

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <cstddef>
+#include <random>
 #include <string>
 
+#include "reports/page/decided_map.hpp"
 #include "reports/report.hpp"
 #include "tests/reports/chromium.hpp"
 #include "tests/reports/example_results.hpp"
@@ -104,6 +106,104 @@ TEST(Explorer, ShowsWhatIsProvedOfTheBox) {
   Results unproved = results;
   unproved.requirements[0].factor = 0;
   EXPECT_THAT(sectionOf(unproved), HasSubstr("\"met\":null"));
+}
+
+/// The box of three quantities, bisected at random, as that of requirement 0.
+std::vector<RequirementCell> bisected(unsigned seed, std::size_t count) {
+  std::mt19937 random(seed);
+  std::vector<RequirementCell> cells{{0, 0, Decision::open, {-1, -1, -1}, {1, 1, 1}}};
+  while (cells.size() < count) {
+    RequirementCell& cell = cells[random() % cells.size()];
+    const std::size_t q = random() % 3;
+    RequirementCell other = cell;
+    cell.upper[q] = other.lower[q] = 0.5 * (cell.lower[q] + cell.upper[q]);
+    for (RequirementCell* half : {&cell, &other})
+      half->word = std::array{Decision::met, Decision::met, Decision::violated, Decision::open}[random() % 4];
+    cells.push_back(other);
+  }
+  return cells;
+}
+
+/// A place is met where all cells over it are; those that are finer than places leave these undecided.
+TEST(DecidedMap, SaysWhatHoldsWhateverTheOtherQuantitiesAre) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const int size = std::array{4, 16, 64}[seed % 3];
+    const std::vector<RequirementCell> cells = bisected(seed, 1 + seed * seed / 9);
+    std::vector<const RequirementCell*> pointers;
+    for (const RequirementCell& cell : cells) pointers.push_back(&cell);
+    const std::size_t across = seed % 3, upward = (seed / 3 % 2 + 1 + across) % 3;
+    const DecidedMap map = decidedMap(pointers, across, upward, size);
+    for (int x = 0; x < size; ++x)
+      for (int y = 0; y < size; ++y) {
+        const auto end = [&](int place) { return 2.0 * place / size - 1; };
+        int met = 0, violated = 0, open = 0;
+        for (const RequirementCell& cell : cells)
+          if (cell.lower[across] < end(x + 1) && cell.upper[across] > end(x) && cell.lower[upward] < end(y + 1) &&
+              cell.upper[upward] > end(y))
+            ++(cell.word == Decision::met ? met : cell.word == Decision::violated ? violated : open);
+        const auto isIn = [&](const std::vector<DecidedMap::Rectangle>& all) {
+          return std::ranges::count_if(all, [&](const DecidedMap::Rectangle& r) {
+            return r[0] <= x && x < r[0] + r[2] && r[1] <= y && y < r[1] + r[3];
+          });
+        };
+        EXPECT_EQ(isIn(map.met), met > 0 && violated + open == 0 ? 1 : 0) << seed << " " << x << " " << y;
+        EXPECT_EQ(isIn(map.violated), violated > 0 && met + open == 0 ? 1 : 0) << seed << " " << x << " " << y;
+      }
+  }
+  EXPECT_TRUE(decidedMap({}, 0, 1, 4).met.empty());
+}
+
+/// The left half is met, of the right one what lies above; the rest is violated or open.
+Results withCells() {
+  Results results = ten();
+  results.requirements.cells = {{0, 0, Decision::met, {-1, -1}, {0, 1}},
+                                {1, 0, Decision::met, {0, 0}, {1, 1}},
+                                {2, 0, Decision::violated, {0, -1}, {0.5, 0}},
+                                {3, 0, Decision::open, {0.5, -1}, {1, 0}}};
+  return results;
+}
+
+TEST(Explorer, TellsWhatIsProvedOfSinglePlaces) {
+  EXPECT_THAT(sectionOf(ten()), HasSubstr("\"cells\":null"));
+  EXPECT_THAT(sectionOf(withCells()),
+              HasSubstr("\"cells\":{\"size\":64,\"count\":4,\"open\":1,\"maps\":{\"0 1\":[[0,0,32,32,0,32,64,32],"
+                        "[32,0,16,32]]}}"));
+}
+
+/// Hatched, with words; turned with the axes.
+TEST(Explorer, DrawsWhatIsProvedOfSinglePlaces) {
+  if (!Chromium::isInstalled()) GTEST_SKIP() << "chromium is not installed";
+  const TemporaryFolder folder;
+  const std::string page = folder.path("report.html");
+  writeReport(withCells(), page);
+  Chromium chromium;
+  const std::string found = chromium.found(
+      page,
+      "const root = document.documentElement, frame = () => new Promise(then => requestAnimationFrame(then));"
+      "while (root.dataset.page !== 'ready') await frame();"
+      "document.querySelector('.explorer details').open = true; await frame(); await frame();"
+      "const share = kind => { const box = document.querySelector('.map .cells.' + kind).getBBox(),"
+      "  frame = document.querySelector('.map .frame').getBBox(); return [(box.x - frame.x) / frame.width,"
+      "  (box.y - frame.y) / frame.height, box.width / frame.width, box.height / frame.height].map(x => x.toFixed(2)); "
+      "};"
+      "const said = () => [...document.querySelectorAll('.map .keys li, .map .hint')].map(x => "
+      "x.textContent).join('|');"
+      "const fill = getComputedStyle(document.querySelector('.map .cells.met')).fill;"
+      "const found = [share('violated').join(' '), said(), fill];"
+      "const [across, upward] = document.querySelectorAll('.map select');"
+      "across.value = '1'; upward.value = '0'; upward.dispatchEvent(new Event('change'));"
+      "across.dispatchEvent(new Event('change')); found.push(share('violated').join(' '));"
+      "across.value = '0'; document.querySelectorAll('.map select')[0].value = '0';"
+      "document.querySelectorAll('.map select')[0].dispatchEvent(new Event('change'));"
+      "found.push(document.querySelector('.map .cells.met').getAttribute('d') + '.');"
+      "return found.join('\\n') + '\\n' + (root.dataset.error ?? 'no error');",
+      {1400, 900});
+  EXPECT_THAT(found, ::testing::StartsWith("0.50 0.50 0.25 0.50\n"));
+  EXPECT_THAT(found,
+              AllOf(HasSubstr("proved to be met: 75 % of the map|proved to be violated: 13 % of the map|undecided"),
+                    HasSubstr("Of 4 parts of the box that were looked at, 1 is undecided."),
+                    Not(HasSubstr("no proof for single places")), HasSubstr("\n0.00 0.25 0.50 0.25\n"),
+                    ::testing::EndsWith("\n.\nno error")));
 }
 
 /// Without a script: by how far they miss the limit, the worst first.
