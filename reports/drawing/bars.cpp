@@ -68,11 +68,30 @@ class BarChart {
         layer.name, from, y, std::max(to - from, 1.0), thickness, escapeHtml(title));
   }
 
+  /// Where words of this length begin: at the margin, or to the right of the lines across that would go through them.
+  double beginOf(const std::string& words) const {
+    constexpr double letter = 10, room = 8;  // as wide as on a phone
+    const double width = letter * static_cast<double>(words.size());
+    double begin = marginLeft;
+    for (bool isMoved = true; isMoved;) {
+      isMoved = false;
+      for (const Layer& layer : plot_.layers)
+        for (const Band& band : layer.bands) {
+          if (layer.labels.empty() || !isDrawn(band.lower[0])) continue;
+          const double x = frame_.across(band.lower[0]);
+          if (!(x > begin - room && x < begin + width) || x + room + width > paperWidth) continue;
+          begin = x + room;
+          isMoved = true;
+        }
+    }
+    return begin;
+  }
+
   /// With the lines that are drawn on it, which follow it.
   void drawBar(std::size_t i) {
     const Layer& layer = plot_.layers[i];
     const std::string text = layer.words + "  " + numbersOf(layer.bands.front());
-    drawText("bar", marginLeft, y_ + 8, text, texts_);
+    drawText("bar", beginOf(text), y_ + 8, text, texts_);
     drawRectangle(layer, layer.bands.front(), y_ + 13, barHeight, text);
     for (++i; i < plot_.layers.size() && plot_.layers[i].kind == Layer::Kind::line; ++i)
       if (const double value = plot_.layers[i].bands.front().lower[0]; isDrawn(value) && plot_.layers[i].labels.empty())

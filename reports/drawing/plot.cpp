@@ -49,8 +49,9 @@ Band outerHull(const Band& band, const std::vector<std::size_t>& kept) {
   return hull;
 }
 
-/// The least and the greatest of each two windows stand at their two kept times, in the order in which they came. The
-/// first and the last number stay.
+/// Where a window goes farther than its ends and its two kept times do, the farthest stand at these, in the order in
+/// which they came; elsewhere what is kept is what was: a line that rises is none of steps. The first and the last
+/// number stay.
 Line extremesOf(const Line& line, const std::vector<std::size_t>& kept) {
   Line result = picked(line, kept);
   for (std::size_t j = 1; j + 2 < result.size(); j += 2) {
@@ -60,8 +61,17 @@ Line extremesOf(const Line& line, const std::vector<std::size_t>& kept) {
       if (line[i] > line[greatest]) greatest = i;
     }
     if (std::isnan(result[j]) || std::isnan(result[j + 1])) continue;
-    result[j] = line[std::min(least, greatest)];
-    result[j + 1] = line[std::max(least, greatest)];
+    double low = INFINITY, high = -INFINITY;
+    for (std::size_t i = j - 1; i <= j + 2; ++i)
+      low = std::fmin(low, line[kept[i]]), high = std::fmax(high, line[kept[i]]);
+    const bool isLower = line[least]<low, isHigher = line[greatest]> high;
+    if (isLower && isHigher) {
+      result[j] = line[std::min(least, greatest)];
+      result[j + 1] = line[std::max(least, greatest)];
+    } else if (isLower || isHigher) {
+      const std::size_t farthest = isLower ? least : greatest;
+      result[2 * farthest < kept[j] + kept[j + 1] ? j : j + 1] = line[farthest];
+    }
   }
   return result;
 }

@@ -86,16 +86,16 @@ std::string Chromium::found(const std::string& page, const std::string& script, 
 }
 
 std::string Chromium::picture(const std::string& page, const std::string& script, const Screen& screen) {
-  const Tab tab = opened(page, screen);
-  asked("Emulation.setScrollbarsHidden", R"({"hidden": true})", tab.session);  // they tell how long a page is
+  const Tab tab = opened(page, screen, true);
   ranIn(tab, script + "; return '';");
   const json seen = json::parse(asked("Page.captureScreenshot", json{{"format", "png"}}.dump(), tab.session));
   close(tab);
   return fromBase64(seen["result"]["data"].get<std::string>());
 }
 
-Chromium::Tab Chromium::opened(const std::string& page, const Screen& screen) {
-  const json target = json::parse(asked("Target.createTarget", json{{"url", "file://" + page}}.dump()));
+/// The page comes last, so that it is laid out on this screen from the beginning.
+Chromium::Tab Chromium::opened(const std::string& page, const Screen& screen, bool isPicture) {
+  const json target = json::parse(asked("Target.createTarget", R"({"url": "about:blank"})"));
   const std::string id = target["result"]["targetId"];
   const json attached = json::parse(asked("Target.attachToTarget", json{{"targetId", id}, {"flatten", true}}.dump()));
   const std::string session = attached["result"]["sessionId"];
@@ -107,6 +107,8 @@ Chromium::Tab Chromium::opened(const std::string& page, const Screen& screen) {
         json{{"media", screen.isPaper ? "print" : "screen"}, {"features", json::array({scheme})}}.dump(), session);
   asked("Emulation.setEmulatedVisionDeficiency", json{{"type", screen.isDeuteranopic ? "deuteranopia" : "none"}}.dump(),
         session);
+  if (isPicture) asked("Emulation.setScrollbarsHidden", R"({"hidden": true})", session);  // they tell how long it is
+  asked("Page.navigate", json{{"url", "file://" + page}}.dump(), session);
   return {id, session};
 }
 

@@ -37,7 +37,7 @@ class Chromium {
   struct Tab {
     std::string target, session;
   };
-  Tab opened(const std::string& page, const Screen& screen);
+  Tab opened(const std::string& page, const Screen& screen, bool isPicture = false);
   std::string ranIn(const Tab& tab, const std::string& script);
   void close(const Tab& tab);
   /// The answer to a command; all as JSON.

@@ -1,24 +1,18 @@
-// How the page looks: pictures of results that are made from formulas, compared with those in pictures/. Where letters
-// and lines are drawn otherwise than on the machine that they come from (other fonts, another browser), which a sample
-// of both tells, nothing is compared. Who has changed the page looks at what the test has drawn, in
-// tests/reports/pictures of the build folder, and keeps it:
-//   GAMUT_KEEP_PICTURES=1 build/release/tests/test_reports --gtest_filter='Pictures.*'
-#include <fmt/format.h>
+// How the page looks: pictures of results that are made from formulas, compared with those in pictures/; those of
+// shipped studies, with theirs in study_pictures/, in accessibility_test.cpp. Who has changed the page looks at what
+// the tests have drawn, in tests/reports/pictures of the build folder, and keeps it:
+//   GAMUT_KEEP_PICTURES=1 build/release/tests/test_reports --gtest_filter='Pictures.*:*PageOfStudy*'
 #include <gmock/gmock.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <memory>
 #include <string>
+#include <vector>
 
 #include "reports/report.hpp"
 #include "tests/reports/example_results.hpp"
-#include "tests/reports/in_chromium.hpp"
-#include "tests/studies/temporary_folder.hpp"
+#include "tests/reports/kept_pictures.hpp"
 
 namespace gamut::pictures {
 namespace {
@@ -117,108 +111,45 @@ Results judged() {
   return results;
 }
 
-/// What is drawn, and what is done to the page before.
-struct Picture {
-  const char* name;
-  Chromium::Screen screen;
-  const char* doing = "";
-};
-
 constexpr const char* atOutputs =
     "document.querySelector('.listed details.panel').open = true; await drawn();"
     "seen('#outputs');";
-constexpr Picture all[] = {{"desktop", {1200, 860}},
-                           {"phone", {390, 1600}},
-                           {"dark", {1200, 860, true}},
-                           {"paper", {720, 980, false, true}},
-                           {"outputs", {1200, 860}, atOutputs},
-                           {"outputs_deuteranopia", {1200, 860, false, false, true}, atOutputs},
-                           {"desktop_deuteranopia", {1200, 860, false, false, true}},
-                           {"machine", {1200, 860}, "seen('#moving');"}};
 
-class Pictures : public InChromium {
+class Pictures : public KeptPictures {
  protected:
-  static constexpr const char* kept = GAMUT_SOURCE_DIR "/tests/reports/pictures/";
+  static inline const Place kept{"pictures"};
+  static inline const std::vector<Picture> all = {{"desktop", {1200, 860}},
+                                                  {"phone", {390, 1600}},
+                                                  {"dark", {1200, 860, true}},
+                                                  {"paper", {720, 980, false, true}},
+                                                  {"outputs", {1200, 860}, atOutputs},
+                                                  {"outputs_deuteranopia", {1200, 860, false, false, true}, atOutputs},
+                                                  {"desktop_deuteranopia", {1200, 860, false, false, true}},
+                                                  {"machine", {1200, 860}, "seen('#moving');"}};
 
   void SetUp() override {
-    InChromium::SetUp();
+    KeptPictures::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    std::filesystem::create_directories(GAMUT_PICTURES);
-    writeReport(judged(), folder_.path("report.html"));
-    if (isKeeping()) return keep("sample");
-    if (const std::string other = difference("sample"); !other.empty())
-      GTEST_SKIP() << "letters and lines are drawn otherwise here than in " << kept << ": " << other;
+    writeReport(judged(), page_);
+    if (const std::string other = differenceOfSample(); !other.empty())
+      GTEST_SKIP() << "letters and lines are drawn otherwise here than in what is kept: " << other;
   }
 
-  static bool isKeeping() { return std::getenv("GAMUT_KEEP_PICTURES") != nullptr; }
-
-  /// Where what was drawn lies: of a picture, or of the sample.
-  std::string draw(const std::string& name, const std::string& before = "") {
-    std::string file = GAMUT_PICTURES "/" + name + ".png";
-    std::ofstream out(file, std::ios::binary);
-    out << (name == "sample" ? sample() : picture(name, before));
-    return file;
+  /// `before`: done to the page besides.
+  std::string differenceOf(const std::string& name, const std::string& before) {
+    Picture picture = *std::ranges::find(all, name, &Picture::name);
+    picture.doing = before + ";" + picture.doing;
+    return difference(page_, {picture}, kept);
   }
 
-  /// How what is drawn differs from what is kept; empty where it does not. `before`: done to the page besides.
-  std::string difference(const std::string& name, const std::string& before = "") {
-    return said(fmt::format("'{}' '{}{}.png'", draw(name, before), kept, name));
-  }
-  void keep(const std::string& name) { said(fmt::format("--keep '{}' '{}{}.png'", draw(name), kept, name)); }
-
- private:
-  std::string sample() {
-    const std::string page = folder_.path("sample.html");
-    std::ofstream(page)
-        << "<!DOCTYPE html><meta charset=\"utf-8\"><body style=\"margin: 8px; font: 16px/1.5 system-ui, "
-           "-apple-system, 'Segoe UI', Roboto, 'Noto Sans', 'DejaVu Sans', sans-serif\">"
-           "<p>In some cases, 0123456789 ± 3.7 m/s²</p><p style=\"font-size: 11px\">guaranteed, probable, "
-           "possible</p><b>Quantities</b> <code>gamut run</code><svg width=\"200\" height=\"30\"><path "
-           "d=\"M0 28C60 -20 90 60 200 3\" fill=\"none\" stroke=\"#1f5f99\"/></svg>";
-    return chromium->picture(page, "await document.fonts.ready;", {400, 200});
-  }
-
-  std::string picture(const std::string& name, const std::string& before) {
-    for (const Picture& one : all)
-      if (name == one.name)
-        return chromium->picture(
-            folder_.path("report.html"),
-            "const root = document.documentElement, frame = () => new Promise(then => requestAnimationFrame(then));"
-            // To whole pixels: letters between them are smoothed otherwise.
-            "const seen = name => scrollTo(0, Math.round(scrollY - 80 +"
-            "  document.querySelector(name).getBoundingClientRect().top));"
-            "const drawn = async () => { await frame(); await frame(); await frame(); };"
-            "while (root.dataset.page !== 'ready' || root.dataset.plots === 'waiting') await frame();" +
-                before + ";" + one.doing + ";await drawn();",
-            one.screen);
-    throw std::logic_error("no picture " + name);
-  }
-
-  static std::string said(const std::string& arguments) {
-    const std::string command =
-        fmt::format("'{}' {}/tests/reports/page/compare_pictures.mjs {}", GAMUT_NODE, GAMUT_SOURCE_DIR, arguments);
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> output(::popen(command.c_str(), "r"), ::pclose);
-    std::array<char, 4096> text{};
-    std::string all;
-    while (std::fgets(text.data(), text.size(), output.get()) != nullptr) all += text.data();
-    return all;
-  }
-
-  TemporaryFolder folder_;
+  const std::string page_ = folder_.path("report.html");
 };
 
-TEST_F(Pictures, AreThoseThatAreKept) {
-  for (const Picture& picture : all) {
-    if (isKeeping())
-      keep(picture.name);
-    else
-      EXPECT_EQ(difference(picture.name), "") << picture.name << ", drawn in " << GAMUT_PICTURES;
-  }
-}
+TEST_F(Pictures, AreThoseThatAreKept) { EXPECT_EQ(difference(page_, all, kept), "") << "drawn in " << GAMUT_PICTURES; }
 
 TEST_F(Pictures, AreSmall) {
   std::uintmax_t sum = 0;
-  for (const auto& file : std::filesystem::directory_iterator(kept)) {
+  for (const auto& file : std::filesystem::directory_iterator(GAMUT_SOURCE_DIR "/tests/reports/pictures")) {
     EXPECT_LE(file.file_size(), 60'000u) << file.path();
     sum += file.file_size();
   }
@@ -230,14 +161,14 @@ TEST_F(Pictures, AreSmall) {
 TEST_F(Pictures, TellWhatHasChanged) {
   if (isKeeping()) return;
   const auto changed = [&](const char* name, const std::string& style) {
-    return difference(name, "document.head.insertAdjacentHTML('beforeend', '<style>" + style + "</style>');");
+    return differenceOf(name, "document.head.insertAdjacentHTML('beforeend', '<style>" + style + "</style>');");
   };
   EXPECT_EQ(changed("desktop", ""), "");
   EXPECT_THAT(changed("desktop", ":root { --outside: #801a1a; }"), ::testing::HasSubstr("differ"));
   EXPECT_THAT(changed("desktop", ".requirements li { margin-left: 3px; }"), ::testing::HasSubstr("differ"));
   EXPECT_THAT(changed("phone", ".chips { display: none; }"), ::testing::HasSubstr("differ"));
   EXPECT_THAT(changed("outputs", ".moment .beside-possible { display: none; }"), ::testing::HasSubstr("differ"));
-  EXPECT_THAT(difference("desktop", "document.querySelector('.requirements b').textContent = 'kept';"),
+  EXPECT_THAT(differenceOf("desktop", "document.querySelector('.requirements b').textContent = 'kept';"),
               ::testing::HasSubstr("differ"));
 }
 

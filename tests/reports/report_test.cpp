@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -548,6 +549,29 @@ TEST(Report, OfKinematicsDrawsBarsAndNeedsNoPlottingLibrary) {
                           HasSubstr("<rect class=\"sampled\""), HasSubstr("<rect class=\"probable\"")));
   EXPECT_EQ(count(page, "<rect class=\"possible\""), 22u);
   EXPECT_THAT(page, AllOf(Not(HasSubstr("var uPlot=")), Not(HasSubstr("output times")), Not(HasSubstr("darker"))));
+}
+
+/// No limit goes through the numbers of a bar, wherever it is; where there is no room, they stay.
+TEST(Report, WritesTheNumbersOfBarsBesideLimits) {
+  for (const double limit : {-1e3, -12.0, -8.0, -5.0, -2.0, 0.0, 3.0, 50.0}) {
+    Results results = example::kinematics();
+    RequirementResult& requirement = results.requirements.emplace_back();
+    requirement.name = "limit";
+    requirement.statement = "always a > 0";
+    requirement.margin = requirement.margins = 1;
+    requirement.violation.assign(results.uncertain.size(), std::nan(""));
+    results.margins = {{1, "a", true, "limit", "", true, 0, limit, true}};
+    const std::string page = renderReport(results);
+    double begin = 0, line = 0;
+    const auto words = page.find("<text class=\"bar\" x=\""), path = page.find("<path class=\"limit\" d=\"M");
+    ASSERT_TRUE(words != std::string::npos && path != std::string::npos) << limit;
+    ASSERT_EQ(std::sscanf(page.c_str() + words, "<text class=\"bar\" x=\"%lf", &begin), 1);
+    ASSERT_EQ(std::sscanf(page.c_str() + path, "<path class=\"limit\" d=\"M%lf", &line), 1);
+    const auto open = page.find('>', words) + 1;
+    const double width = 6.5 * static_cast<double>(page.find('<', open) - open);
+    EXPECT_TRUE(line < begin - 4 || line > begin + width) << limit << ": " << begin << " " << line << " " << width;
+    EXPECT_LT(begin + width, 720) << limit;
+  }
 }
 
 TEST(Report, DescribesEveryDrawingInWords) {

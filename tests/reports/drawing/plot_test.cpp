@@ -174,6 +174,19 @@ TEST(ThinnedPlot, KeepsExtremesOfLines) {
   for (const double extreme : {17.0, 1244.0, -99.0}) EXPECT_THAT(thin, ::testing::Contains(extreme));
 }
 
+/// What is kept of a smooth line lies on it, but for peaks, which stand where they hardly are elsewhere.
+TEST(ThinnedPlot, MakesNoStepsOfSmoothLines) {
+  for (const std::size_t times : {31u, 200u, 651u, 3001u})
+    for (const std::size_t points : {10u, 30u, 200u}) {
+      Plot plot = plotOf(example::pendulum(times, 1), 0);
+      Layer& median = plot.layers[4];
+      for (std::size_t i = 0; i < times; ++i) median.bands[0].lower[i] = 3 * plot.time[i] * plot.time[i];
+      const Plot thin = thinned(plot, points);
+      for (std::size_t i = 0; i < thin.time.size(); ++i)
+        EXPECT_EQ(layerNamed(thin, "median").bands[0].lower[i], 3 * thin.time[i] * thin.time[i]) << times << " " << i;
+    }
+}
+
 TEST(Plot, IsThinWhereItsBandIsAHairline) {
   Results results = example::pendulum();
   EXPECT_TRUE(plotOf(results, 0).isThin());

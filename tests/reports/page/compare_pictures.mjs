@@ -1,14 +1,24 @@
-// node compare_pictures.mjs FOUND KEPT: says how a picture differs from the one that is kept; with --keep keeps it instead.
-import { existsSync, readFileSync, writeFileSync } from "node:fs";
+// node compare_pictures.mjs [--keep] [--reduced N] FOUND KEPT [FOUND KEPT …]: says how pictures, reduced so many times, differ from
+// those that are kept; with --keep keeps them instead.
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { basename, dirname } from "node:path";
+import { parseArgs } from "node:util";
 
-import { decoded, difference, encoded } from "./pictures.mjs";
+import { decoded, difference, encoded, reduced } from "./pictures.mjs";
 
-const [first, ...others] = process.argv.slice(2);
-if (first === "--keep") {
-  writeFileSync(others[1], encoded(decoded(readFileSync(others[0]))));
-} else {
-  const kept = others[0];
-  const said = existsSync(kept) ? difference(decoded(readFileSync(first)), decoded(readFileSync(kept))) : "none is kept";
-  process.stdout.write(said);
-  process.exitCode = said === "" ? 0 : 1;
+const { values, positionals } = parseArgs({
+  allowPositionals: true, options: { keep: { type: "boolean" }, reduced: { type: "string", default: "1" } },
+});
+const times = Number(values.reduced);
+for (let i = 0; i < positionals.length; i += 2) {
+  const [file, kept] = positionals.slice(i, i + 2), found = reduced(decoded(readFileSync(file)), times);
+  if (values.keep) {
+    mkdirSync(dirname(kept), { recursive: true });
+    writeFileSync(kept, encoded(found, times > 1 ? 220 : 160));
+    continue;
+  }
+  const said = existsSync(kept) ? difference(found, decoded(readFileSync(kept)), 8 / times) : "none is kept";
+  if (said === "") continue;
+  process.stdout.write(basename(kept, ".png") + ": " + said + "\n");
+  process.exitCode = 1;
 }

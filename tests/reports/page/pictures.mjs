@@ -64,7 +64,8 @@ function chunk(type, content) {
   return Buffer.concat([frame.subarray(0, 4), body, frame.subarray(4)]);
 }
 
-/** The colours that most pixels have, a third of them as they are, of others alike ones taken together. */
+/** The colours that most pixels have, a third of them as they are, of others alike ones taken together; thin lines have few pixels,
+ * and their colours tell. */
 function paletteOf({ pixels }, colours) {
   const bins = new Map(), exact = new Map();
   for (let i = 0; i < pixels.length; i += 3) {
@@ -78,7 +79,9 @@ function paletteOf({ pixels }, colours) {
     const bin = bins.get(key) ?? [0, 0, 0, 0];
     bins.set(key, [bin[0] + 1, bin[1] + pixels[i], bin[2] + pixels[i + 1], bin[3] + pixels[i + 2]]);
   }
-  const most = [...bins.values()].sort((one, other) => other[0] - one[0]).slice(0, colours - first.length);
+  /** @param {number[]} bin */
+  const weight = ([count, ...sums]) => count + (Math.max(...sums) - Math.min(...sums)) / 16;
+  const most = [...bins.values()].sort((one, other) => weight(other) - weight(one)).slice(0, colours - first.length);
   return [...first.map(key => [key >> 16, (key >> 8) & 255, key & 255]),
     ...most.map(([count, ...sums]) => sums.map(sum => Math.round(sum / count)))];
 }
@@ -102,6 +105,17 @@ export function encoded(picture, colours = 160) {
   head.set([8, 3, 0, 0, 0], 8);
   return Buffer.concat([signature, chunk("IHDR", head), chunk("PLTE", Buffer.from(palette.flat())),
     chunk("IDAT", deflateSync(raw, { level: 9, memLevel: 9 })), chunk("IEND", Buffer.alloc(0))]);
+}
+
+/** So many times as narrow and low: each pixel is the mean of a square; what is left over at the ends is cut off.
+ * @param {Picture} picture @param {number} times @returns {Picture} */
+export function reduced(picture, times) {
+  if (times === 1) return picture;
+  const width = Math.floor(picture.width / times), height = Math.floor(picture.height / times), pixels = new Uint8Array(3 * width * height);
+  for (let y = 0; y < height; ++y)
+    for (let x = 0; x < width; ++x)
+      pixels.set(meanOf(picture, times * x, times * y, times).map(Math.round), 3 * (y * width + x));
+  return { width, height, pixels };
 }
 
 /** Of a square of so many pixels the mean colour. */

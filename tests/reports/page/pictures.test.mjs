@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { deflateSync } from "node:zlib";
 
-import { decoded, difference, encoded } from "./pictures.mjs";
+import { decoded, difference, encoded, reduced } from "./pictures.mjs";
 
 /** White, with a rectangle of a colour. */
 function picture(width, height, { left = 0, top = 0, right = 0, bottom = 0, colour = [0, 0, 0] } = {}) {
@@ -18,6 +18,14 @@ test("pictures of few colours are kept as they are", () => {
     const one = picture(width, height, width > 60 ? card : {});
     assert.deepEqual(decoded(encoded(one)), one);
   }
+});
+
+test("a picture that is reduced has the mean of each square, and loses what is left over", () => {
+  const one = picture(5, 4, { right: 1, bottom: 2, colour: [55, 155, 255] });
+  assert.equal(reduced(one, 1), one);
+  const half = reduced(one, 2);
+  assert.deepEqual([half.width, half.height], [2, 2]);
+  assert.deepEqual([...half.pixels.slice(0, 6)], [155, 205, 255, 255, 255, 255]);
 });
 
 test("of many colours those are kept that are most like them", () => {
