@@ -36,7 +36,8 @@ void drawBeside(const BesideMoment& moment, const Frame& frame, double from, dou
 std::string besideTemplate(const std::vector<BesideMoment>& moments, const std::string& label) {
   if (moments.empty()) return {};
   std::string html = fmt::format(
-      "<template class=\"beside\"><svg class=\"drawing beside\" role=\"img\" aria-label=\"{}\">\n", escapeHtml(label));
+      "<script type=\"image/svg+xml\" class=\"beside\"><svg class=\"drawing beside\" role=\"img\" aria-label=\"{}\">\n",
+      escapeHtml(label));
   for (const BesideMoment& moment : moments) {
     constexpr double rounding = 1e-12;  // of the height
     const double finest = rounding * (moment.high - moment.low);
@@ -47,7 +48,7 @@ std::string besideTemplate(const std::vector<BesideMoment>& moments, const std::
         std::isfinite(moment.middle) ? fmt::format(" data-middle=\"{}\"", number(moment.middle)) : std::string(),
         moment.shapes);
   }
-  return html + "</svg></template>\n";
+  return html + "</svg></script>\n";
 }
 
 }  // namespace gamut

@@ -15,9 +15,10 @@ const shape = (name, attributes, parent) => {
 };
 
 export class Beside {
-  /** @param {HTMLTemplateElement} template @param {HTMLElement} place */
-  constructor(template, place) {
-    this.svg = /** @type {Element} */ (place.appendChild(/** @type {Element} */ (template.content.firstElementChild).cloneNode(true)));
+  /** @param {string} drawing @param {HTMLElement} place */
+  constructor(drawing, place) {
+    place.insertAdjacentHTML("beforeend", drawing);
+    this.svg = /** @type {Element} */ (place.lastElementChild);
     this.moments = all("g.moment", this.svg);
     this.times = this.moments.map(({ dataset }) => Number(dataset.at));
     this.frame = shape("g", {}, this.svg);

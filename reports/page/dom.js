@@ -18,6 +18,11 @@ export const made = (tag, properties, parent) => {
   return element;
 };
 
+/** Puts what is there without scripts too, and takes long to read, in the place of its text. @param {ParentNode} [within] */
+export const readDrawings = (within = document) => {
+  for (const text of all(".static > noscript", within)) text.outerHTML = text.textContent ?? "";
+};
+
 /** @param {Element} element @param {unknown} isPressed */
 export const press = (element, isPressed) => element.setAttribute("aria-pressed", String(Boolean(isPressed)));
 

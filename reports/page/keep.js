@@ -2,7 +2,7 @@
 // beside it.
 "use strict";
 
-import { all, made, one } from "./dom.js";
+import { all, made, one, readDrawings } from "./dom.js";
 import { csv } from "./outputs.js";
 
 /** Names of the layers that the reader has switched off. @type {Set<string>} */
@@ -148,5 +148,6 @@ for (const picture of all(".picture")) {
 }
 
 window.addEventListener("beforeprint", () => {
+  readDrawings();
   for (const part of /** @type {HTMLDetailsElement[]} */ (all("section > details:not(.more), .requirements details"))) part.open = true;
 });

@@ -178,7 +178,7 @@ std::string motionSection(const Results& results, const Plot& plot, std::size_t 
   return panel(results, plot, output,
                fmt::format("<script type=\"application/json\">{}</script>\n{}"
                            "<div class=\"live\" role=\"group\" aria-label=\"{}\"></div>\n"
-                           "<div class=\"static\">\n{}{}{}</div>\n",
+                           "<div class=\"static\"><noscript>\n{}{}{}</noscript></div>\n",  // else read when unfolded
                            plotData(plot, detail.times),
                            besideTemplate(moments, "Plot of what is known of " + plot.name + " at an instant"),
                            escapeHtml("Interactive plot of " + words), absolute, spread,

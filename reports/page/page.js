@@ -5,7 +5,7 @@
 
 import { axisName, padded, ticks } from "./axes.js";
 import { Beside } from "./beside.js";
-import { all, chooseTime, followCurves, followTime, made, makeSwitches, nearestTo, one, press, pressable } from "./dom.js";
+import { all, chooseTime, followCurves, followTime, made, makeSwitches, nearestTo, one, press, pressable, readDrawings } from "./dom.js";
 import { addButtons, headingOf, hidden } from "./keep.js";
 import { columnsOf, readOutput, readoutOf, shownOf } from "./outputs.js";
 
@@ -278,11 +278,12 @@ class OutputPlot {
     this.mark = made("div", { className: "mark" });
     /** @type {(plot: uPlot) => void} */
     this.showBeside = () => {};
+    readDrawings(section);
     for (const details of all(".static details", section)) details.replaceWith(one("figure", details));
     if (section.dataset.layers == null) this.addViews();
-    const pair = made("div", { className: "pair" }, this.place), [template] = all("template.beside", section);
+    const pair = made("div", { className: "pair" }, this.place), [beside] = all("script.beside", section);
     this.main = made("div", { className: "canvas" }, pair);
-    this.beside = template ? new Beside(/** @type {HTMLTemplateElement} */ (template), pair) : null;
+    this.beside = beside ? new Beside(beside.textContent ?? "", pair) : null;
     const about = made("div", { className: "about" }, this.place);
     this.readout = made("p", { className: "readout" }, about);
     section.classList.add("plotted");
