@@ -56,3 +56,21 @@ export const rectanglesOf = (list, isTurned) => Array.from({ length: list.length
   const [x, y, width, height] = list.slice(4 * i, 4 * i + 4);
   return isTurned ? [y, x, height, width] : [x, y, width, height];
 });
+
+/**
+ * Of which two quantities the map says most: where most of it is proved to be met or violated. The first two where nothing is.
+ * @param {Record<string, [number[], number[]]>} maps @returns {[number, number]}
+ */
+export const tellingPair = maps => {
+  /** @type {[number, number]} */
+  let pair = [0, 1];
+  let most = 0;
+  for (const [key, lists] of Object.entries(maps)) {
+    const area = rectanglesOf(lists.flat(), false).reduce((sum, [, , width, height]) => sum + width * height, 0);
+    if (area <= most) continue;
+    most = area;
+    const [across, upward] = key.split(" ").map(Number);
+    pair = [across, upward];
+  }
+  return pair;
+};

@@ -3,7 +3,7 @@
 // outputs' plots. Below, two quantities as a map. Samples that violate the requirement are dashed and red, and crosses.
 "use strict";
 
-import { chosenOf, extentOf, movedRange, rectanglesOf, wrapped } from "./choice.js";
+import { chosenOf, extentOf, movedRange, rectanglesOf, tellingPair, wrapped } from "./choice.js";
 import { all, chooseCurves, made, one } from "./dom.js";
 
 /** @typedef {import("./choice.js").Axis} Axis */
@@ -50,8 +50,9 @@ class Explorer {
     this.key = made("ul", { className: "keys" }, place);
     this.wide = made("div", { className: "parallel" }, place);
     this.map = explored.axes.filter(({ isQuantity }) => isQuantity).length > 1 ? made("div", { className: "map" }, place) : null;
-    this.across = 0;
-    this.upward = 1;
+    const [across, upward] = tellingPair(this.requirement?.cells?.maps ?? {});
+    this.across = across;
+    this.upward = upward;
     this.drawAll();
     new ResizeObserver(() => {
       if (this.wide.clientWidth > 0 && this.wide.clientWidth !== this.width) this.drawAll();

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { chosenOf, extentOf, movedRange, rectanglesOf, wrapped } from "../../../reports/page/choice.js";
+import { chosenOf, extentOf, movedRange, rectanglesOf, tellingPair, wrapped } from "../../../reports/page/choice.js";
 
 test("names are wrapped between words", () => {
   assert.deepEqual(wrapped("acceleration of the body at its worst", 13), ["acceleration", "of the body", "at its worst"]);
@@ -21,6 +21,12 @@ test("places of a map are exchanged where its axes are", () => {
   assert.deepEqual(rectanglesOf([1, 2, 3, 4, 5, 6, 7, 8], false), [[1, 2, 3, 4], [5, 6, 7, 8]]);
   assert.deepEqual(rectanglesOf([1, 2, 3, 4], true), [[2, 1, 4, 3]]);
   assert.deepEqual(rectanglesOf([], true), []);
+});
+
+test("the map begins with the two quantities of which it says most", () => {
+  assert.deepEqual(tellingPair({}), [0, 1]);
+  assert.deepEqual(tellingPair({ "0 1": [[], []], "0 2": [[], []] }), [0, 1]);
+  assert.deepEqual(tellingPair({ "0 1": [[0, 0, 2, 2], []], "0 2": [[0, 0, 1, 1], [1, 1, 2, 2]], "1 2": [[0, 0, 1, 5], []] }), [0, 2]);
 });
 
 test("samples are chosen that go through all ranges; those without a value go through none", () => {
