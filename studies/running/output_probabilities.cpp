@@ -215,14 +215,19 @@ class Probabilities {
       pinchImage(nominal);
       return;
     }
-    forEachIndex(run_.options.jobs, rows.size() * outputs_.size(), run_.watch.stop(), [&] {
+    const auto pinchOne = [&] {
       return [&](std::size_t i) {
         const std::size_t row = i / outputs_.size(), k = i % outputs_.size();
         if (!std::ranges::binary_search(rows_, rows[row])) return;
         const std::vector<double> shares = pinchedShares(surrogate_.get(), *surrogate_.partsAt(rows[row]), k, nominal);
         for (std::size_t q = 0; q < quantities_.size(); ++q) pinched(row, outputs_[k], quantities_[q]) = shares[q];
       };
-    });
+    };
+    const auto told = [&](Archive& one, std::size_t i) {
+      for (const std::size_t q : quantities_) one(pinched(i / outputs_.size(), outputs_[i % outputs_.size()], q));
+    };
+    forEachShared(run_.options.communicator, run_.options.jobs, rows.size() * outputs_.size(), run_.watch.stop(),
+                  pinchOne, told);
   }
 
   /// By an image for each quantity: of far angles it knows more than polynomials of them do.

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "analyses/checkpoints.hpp"
 #include "analyses/requirements/decided_cells.hpp"
 #include "analyses/requirements/requirement.hpp"
 #include "analyses/requirements/start.hpp"
+#include "analyses/shared_indices.hpp"
 #include "scalars/archive.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/running/flow_of_study.hpp"
@@ -263,6 +265,9 @@ class RequirementProof {
   }
 
  private:
+  /// So many are looked at, on all threads and ranks, before it is noted what was found.
+  static constexpr std::size_t together = 8;
+
   bool mayTighten() const {
     return enclosure_.models.mayTighten() && !*run_.watch.stop() &&
            std::ranges::any_of(results_.requirements, [&](const auto& result) { return isVague(study_, result); });
@@ -275,16 +280,12 @@ class RequirementProof {
   /// With this part of the work that is left, of which each gets as much.
   void examineAll(double part) {
     const std::shared_ptr<const FlowModels> known = models();
-    const auto isOpen = [&](const RequirementResult& result) { return isVague(study_, result); };
-    const auto open =
-        static_cast<double>(std::max<std::ptrdiff_t>(std::ranges::count_if(results_.requirements, isOpen), 1));
-    const double work = part * workForRequirements(run_) / open;
-    for (std::size_t r = 0; r < results_.requirements.size(); ++r) {
-      if (!isOpen(results_.requirements[r])) continue;
-      std::vector<Suspect> found;
-      examine(*known, r, work, found);
-      suspects_[r].insert(suspects_[r].begin(), found.begin(), found.end());
-    }
+    std::vector<std::size_t> open;
+    for (std::size_t r = 0; r < results_.requirements.size(); ++r)
+      if (isVague(study_, results_.requirements[r])) open.push_back(r);
+    const double work = part * workForRequirements(run_) / static_cast<double>(std::max<std::size_t>(open.size(), 1));
+    for (std::size_t first = 0; first < open.size(); first += together)
+      examineThese(*known, std::span(open).subspan(first, std::min(together, open.size() - first)), work);
   }
 
   void proveViolation(std::size_t number) {
@@ -301,14 +302,34 @@ class RequirementProof {
       result.metUntil = metUntil(run_.machine, *models(), study_.requirements[number]);
   }
 
-  /// Unless it is remembered.
-  void examine(const FlowModels& models, std::size_t number, double work, std::vector<Suspect>& suspects) {
+  /// Unless it is remembered; each with this much work.
+  void examineThese(const FlowModels& models, std::span<const std::size_t> these, double work) {
     const Charge charge(&run_.spent.requirements);
     CheckpointedTask checkpoint(run_.options.checkpoints);
-    const auto end = [&](Archive& all) { all(results_, suspects, masses_); };
-    if (checkpoint.recall(end, {}) == CheckpointedTask::Recalled::end) return;
-    examineAnew(models, number, work, suspects);
-    checkpoint.end(end);
+    std::vector<std::vector<Suspect>> found(these.size());
+    const auto end = [&](Archive& all) { all(results_, found, masses_); };
+    if (checkpoint.recall(end, {}) != CheckpointedTask::Recalled::end) {
+      std::vector<FlowSymbol> symbols;
+      for (const CellQuantity& quantity : quantities()) symbols.push_back(models.components[quantity.component]);
+      const JointMasses& masses = masses_.in(models.symbols, symbols);
+      shareOut(
+          these.size(), [&](std::size_t i) { examine(models, these[i], work, masses, found[i]); },
+          [&](Archive& all, std::size_t i) {
+            RequirementResult& of = results_.requirements[these[i]];
+            all(of.word, of.met, of.violated, of.factor, of.probabilityLower, of.probabilityUpper, of.violationLeast,
+                of.violationMost, of.violation, found[i]);
+          });
+      checkpoint.end(end);
+    }
+    for (std::size_t i = 0; i < these.size(); ++i)
+      suspects_[these[i]].insert(suspects_[these[i]].begin(), found[i].begin(), found[i].end());
+  }
+
+  /// Over threads and ranks.
+  template <class Task, class Result>
+  void shareOut(std::size_t count, const Task& task, const Result& result) {
+    forEachShared(
+        run_.options.communicator, run_.options.jobs, count, run_.watch.stop(), [&] { return task; }, result);
   }
 
   std::vector<CellQuantity> quantities() const {
@@ -335,18 +356,27 @@ class RequirementProof {
     const auto end = [&](Archive& all) { all(results_); };
     if (checkpoint.recall(end, {}) == CheckpointedTask::Recalled::end) return;
     const std::shared_ptr<const FlowModels> known = models();
+    const std::size_t constants = run_.machine.constants.size(), all = asked.size() * constants;
     double left = 0.25 * workForRequirements(run_);
-    std::size_t remaining = asked.size() * run_.machine.constants.size();
-    for (const std::size_t r : asked)
-      for (std::size_t i = 0; i < run_.machine.constants.size(); ++i)
-        left -= proveAlone(*known, r, i, left / static_cast<double>(remaining--));
+    for (std::size_t first = 0; first < all; first += together) {
+      if (!(left > 0) || *run_.watch.stop()) break;
+      const std::uint64_t before = Work::counted();
+      const double work = left / static_cast<double>(all - first);
+      const auto of = [&](std::size_t i) { return std::pair(asked[(first + i) / constants], (first + i) % constants); };
+      shareOut(
+          std::min(together, all - first), [&](std::size_t i) { proveAlone(*known, of(i).first, of(i).second, work); },
+          [&](Archive& one, std::size_t i) {
+            RequirementResult& result = results_.requirements[of(i).first];
+            const std::size_t quantity = run_.machine.constants[of(i).second].number;
+            one(result.aloneLower[quantity], result.aloneUpper[quantity]);
+          });
+      left -= static_cast<double>(Work::counted() - before);
+    }
     checkpoint.end(end);
   }
 
-  /// Of one of the constant quantities; the work that it took.
-  double proveAlone(const FlowModels& models, std::size_t number, std::size_t constant, double work) {
-    if (!(work > 0) || *run_.watch.stop()) return 0;
-    const std::uint64_t began = Work::counted();
+  /// Of one of the constant quantities.
+  void proveAlone(const FlowModels& models, std::size_t number, std::size_t constant, double work) {
     RequirementOptions options;
     options.mostWork = work;
     options.cancelled = run_.watch.stop();
@@ -356,7 +386,6 @@ class RequirementProof {
     const std::size_t quantity = run_.machine.constants[constant].number;
     result.aloneLower[quantity] = factor.lower();
     result.aloneUpper[quantity] = factor.upper();
-    return static_cast<double>(Work::counted() - began);
   }
 
   /// Whether there are models of all of its window.
@@ -420,16 +449,15 @@ class RequirementProof {
   }
 
   /// What models of the margins say of one requirement; no less than what is known of it already.
-  void examineAnew(const FlowModels& models, std::size_t number, double work, std::vector<Suspect>& suspects) {
+  void examine(const FlowModels& models, std::size_t number, double work, const JointMasses& masses,
+               std::vector<Suspect>& suspects) {
     const Requirement& requirement = study_.requirements[number];
     const CellQuestion whole = questionOf(study_, requirement, study_.times.size());
     if (models.at.size() <= whole.from) return;
     const CellQuestion question = questionOf(study_, requirement, models.at.size());
     const std::vector<CellQuantity> quantities = this->quantities();
     RequirementOptions options;
-    std::vector<FlowSymbol> symbols;
-    for (const CellQuantity& quantity : quantities) symbols.push_back(models.components[quantity.component]);
-    options.masses = &masses_.in(models.symbols, symbols);
+    options.masses = &masses;
     options.mostWork = work;
     options.cancelled = run_.watch.stop();
     RequirementFinding finding = gamut::examine(models, question, quantities, options);
