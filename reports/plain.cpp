@@ -72,11 +72,19 @@ class Sentence {
       likely.push_back("in all cases but for " + rareText(r_));
     else if (isProbabilityTelling())
       likely.push_back(violationShare(r_) + " of all cases, proved");
-    if (r_.samples > 0) likely.push_back(fmt::format("{} of {} simulated cases", r_.violating, r_.samples));
+    if (r_.samples > 0) likely.push_back(simulatedFact());
     return ViolationFacts{does(false) + window(), fmt::format("{}", fmt::join(likely, "; ")), missedFact()};
   }
 
  private:
+  /// With what they tell of all cases, where they do not all violate it.
+  std::string simulatedFact() const {
+    std::string text = fmt::format("{} of {} simulated cases", r_.violating, r_.samples);
+    if (r_.word != Decision::violated && !std::isnan(r_.shareLower))
+      text += fmt::format(", so {} of all with 95 % confidence", percentRange(1 - r_.shareUpper, 1 - r_.shareLower));
+    return text;
+  }
+
   std::string said() const {
     if (r_.word == Decision::met)
       return does(true) + (r_.isAlways ? "" : ", at least once,") + " in every case" + window() + ".";

@@ -244,6 +244,10 @@ std::string violationProbability(const RequirementResult& requirement) {
 
 std::string violationShare(const RequirementResult& requirement) {
   const auto [least, most] = violationBounds(requirement);
+  return percentRange(least, most);
+}
+
+std::string percentRange(double least, double most) {
   // What is multiplied is off by half a unit in the last place at most.
   const double from = least == 0 ? 0 : std::nextafter(100 * least, 0.0),
                to = most == 1 ? 100 : std::nextafter(100 * most, 100.0);

@@ -69,6 +69,9 @@ std::string violationProbability(const RequirementResult& requirement);
 /// The same as a share of all cases: "6.9 to 7.8 %".
 std::string violationShare(const RequirementResult& requirement);
 
+/// Of shares, rounded outward: "6.9 to 7.8 %".
+std::string percentRange(double least, double most);
+
 /// "58.3 %", rounded down.
 std::string percentText(double share);
 

@@ -410,14 +410,14 @@ class Wording {
     constexpr double saysLittle = 100;
     const std::string then = moves() ? "at the output times the guarantee" : "the guarantee";
     if (const std::string times = timesText(verdict_.overestimation); times == "1")
-      text += fmt::format("; {} is as wide as what was sampled", then);
+      text += fmt::format("; {} is no wider than the sampled extremes", then);
     else if (!std::isnan(verdict_.overestimation))
-      text +=
-          verdict_.overestimation < saysLittle
-              ? fmt::format("; {} is at most {} times as wide as what was sampled{}", then, times,
-                            hasWorstCourses() ? ", worst courses included" : "")
-              : fmt::format(", but {} says little: for some output it is at most {} times as wide as what was sampled",
-                            then, times);
+      text += verdict_.overestimation < saysLittle
+                  ? fmt::format("; {} is at most {} times as wide as the sampled extremes{}", then, times,
+                                hasWorstCourses() ? ", worst courses included" : "")
+                  : fmt::format(
+                        ", but {} says little: for some output it is at most {} times as wide as the sampled extremes",
+                        then, times);
     text += ".";
     if (verdict_.endsEarly) return text + (moves() ? horizonText() : " An analysis ended early.");
     if (verdict_.unbounded > 0) text += " Not every output is bounded.";

@@ -77,9 +77,11 @@ Foremost foremostOf(const Results& results) {
 
 // ---- Words ----------------------------------------------------------------------------------------------------------
 
+/// A check of the answers by each other: of the mechanism it says nothing.
 std::string verdictCard(const Verdict& verdict) {
-  const std::string_view word = wordOf(verdict.word),
-                         shown = verdict.gap == Finding::Gap::noAnswers ? "not compared" : word;
+  const std::string_view word = wordOf(verdict.word), shown = verdict.gap == Finding::Gap::noAnswers ? "not compared"
+                                                              : verdict.word == Agreement::inside ? "self-check passed"
+                                                                                                  : word;
   return fmt::format(
       "<section id=\"verdict\" class=\"verdict {}\" aria-label=\"Verdict\">\n<p class=\"sentence\"><b "
       "class=\"word\">{}</b> {}</p>\n"
@@ -180,10 +182,11 @@ std::string plotOfForemost(const Results& results, const Foremost& foremost) {
   const Plot plot = essentialPlot(results, foremost.output, requirement);
   if (plot.layers.empty()) return {};
   const std::string title = titleOfPlot(results, foremost), label = "Plot of " + title;
-  const std::string caption = fmt::format("<figcaption>{}</figcaption>", escapeHtml(captionOf(plot)));
   if (!plot.isOverTime())
-    return fmt::format("<section class=\"foremost\">\n<h3>{}</h3>\n<figure class=\"kept\">{}</figure>\n</section>\n",
-                       escapeHtml(title), drawBars(plot, label));
+    return fmt::format(
+        "<section class=\"foremost\">\n<h3>{}</h3>\n<figure class=\"kept\">{}</figure>\n<p class=\"hint\">{}</p>\n"
+        "</section>\n",
+        escapeHtml(title), drawBars(plot, label), escapeHtml(captionOf(plot)));
   constexpr std::size_t drawnTimes = 200;
   const bool isSpread = !foremost.limit && plot.isThin();
   Plot shown = thinned(isSpread ? aroundMiddle(plot) : plot, drawnTimes);

@@ -127,11 +127,13 @@ std::string chipsOf(const Report& report) {
                                    : std::pair("met", all == 1 ? std::string("met in every case")
                                                                : fmt::format("all {} met in every case", all));
     html += fmt::format("<a class=\"chip {}\" href=\"#found\">{}</a> ", tone, words);
+  } else if (all == 0) {
+    html += "<a class=\"chip none\" href=\"#asked\">no requirement is stated</a> ";
   }
   if (report.verdict.gap != Finding::Gap::noAnswers)
-    html += fmt::format("<a class=\"chip {0}\" href=\"#verdict\">checked: {1}</a>", wordOf(report.verdict.word),
+    html += fmt::format("<a class=\"chip {0}\" href=\"#verdict\">self-check: {1}</a>", wordOf(report.verdict.word),
                         report.verdict.word == Agreement::inside && results.stochastic.integrated > 0
-                            ? fmt::format("all {} samples inside", results.stochastic.integrated)
+                            ? fmt::format("all {} samples within what is guaranteed", results.stochastic.integrated)
                             : std::string(wordOf(report.verdict.word)));
   return html;
 }

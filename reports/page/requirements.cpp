@@ -117,8 +117,9 @@ std::string marginBar(const Results& results, const RequirementResult& requireme
   svg += fmt::format("<path class=\"zero\" d=\"M{0:.1f} 2V34\"/>\n", across(0));
   drawText("middle", std::clamp(across(0), 14.0, width - 14), height - 1, "limit", svg);
   if (requirement.isViolatedBetween) words.emplace_back("the violation lies between output times");
-  return fmt::format("<figure class=\"margin\">{}</svg>\n<figcaption>Margin{}: {}</figcaption></figure>\n", svg, when,
-                     escapeHtml(fmt::format("{}", fmt::join(words, "; "))));
+  const std::string to = info == results.margins.end() ? "" : " to the limit of " + info->limitText;
+  return fmt::format("<figure class=\"margin\">{}</svg>\n<figcaption>Margin{}</figcaption></figure>\n", svg,
+                     escapeHtml(fmt::format("{}{}: {}", to, when, fmt::join(words, "; "))));
 }
 
 /// The same between these rows.

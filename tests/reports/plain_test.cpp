@@ -121,6 +121,11 @@ TEST(ViolationFacts, AreWhatTheSentenceSays) {
   requirement.violationLower = requirement.violationUpper = -0.25;
   EXPECT_EQ(violationFacts(results).front()->likely,
             "6.94 to 7.74 % of all cases, proved; 307 of 4096 simulated cases");
+  requirement.shareLower = 0.9163;
+  requirement.shareUpper = 0.9331;
+  EXPECT_THAT(violationFacts(results).front()->likely,
+              EndsWith("; 307 of 4096 simulated cases, so 6.6 to 8.4 % of all with 95 % confidence"));
+  requirement.shareLower = requirement.shareUpper = RequirementResult::unknown;
   EXPECT_EQ(violationFacts(results).front()->missed, "the limit by 0.25 rad at 0.5 s, in sample 17");
   requirement.probabilityUpper = 1;
   EXPECT_THAT(violationFacts(results).front()->likely, StartsWith("7.74 % at most of all cases, proved"));

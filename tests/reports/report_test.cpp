@@ -87,6 +87,13 @@ TEST(Report, ListsWhatIsFoundBesideTheAnswers) {
             HasSubstr("<li>unstable: slide&lt;1&gt;.displacement in [-0.5, -0.25], hinge.angle in [0.25, 0.25]")));
 }
 
+/// That samples lie within what is guaranteed says nothing of the mechanism.
+TEST(Report, TellsACheckOfItselfFromRequirements) {
+  const std::string page = renderReport(example::pendulum());
+  EXPECT_THAT(page, AllOf(HasSubstr("<a class=\"chip none\" href=\"#asked\">no requirement is stated</a>"),
+                          HasSubstr("\">self-check: all "), HasSubstr("<b class=\"word\">self-check passed</b>")));
+}
+
 TEST(Report, HasAColumnForEachShape) {
   Results results = example::pendulum();
   EXPECT_THAT(renderReport(results), Not(HasSubstr("<h2>Modes</h2>")));

@@ -244,20 +244,20 @@ TEST(Verdict, SaysHowManyMotionsStayedInsideHowLongAndHowTight) {
   const Verdict verdict = judge(example::pendulum());
   EXPECT_EQ(verdict.sentence,
             "All 4099 sampled motions stay inside the guaranteed enclosure from 0 s to 3 s; at the output times the "
-            "guarantee is at most 1.004 times as wide as what was sampled.");
+            "guarantee is at most 1.004 times as wide as the sampled extremes.");
   EXPECT_THAT(verdict.notes, IsEmpty());
   EXPECT_EQ(verdict.reached, 3);
   Results worst = example::pendulum();
   worst.stochastic.switching.present = true;
   EXPECT_THAT(judge(worst).sentence,
-              ::testing::EndsWith(" at most 1.004 times as wide as what was sampled, worst courses included."));
+              ::testing::EndsWith(" at most 1.004 times as wide as the sampled extremes, worst courses included."));
   Results tight = example::pendulum();
   for (double& ratio : tight.comparison.overestimation.data) ratio = 1 + 2e-12;
   EXPECT_THAT(judge(tight).sentence,
-              ::testing::EndsWith("; at the output times the guarantee is as wide as what was sampled."));
+              ::testing::EndsWith("; at the output times the guarantee is no wider than the sampled extremes."));
   for (double& ratio : tight.comparison.overestimation.data) ratio = 1;
   EXPECT_THAT(judge(tight).sentence,
-              ::testing::EndsWith("; at the output times the guarantee is as wide as what was sampled."));
+              ::testing::EndsWith("; at the output times the guarantee is no wider than the sampled extremes."));
 }
 
 /// Of what no sample is compared with.
