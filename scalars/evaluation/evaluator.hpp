@@ -3,12 +3,14 @@
 #pragma once
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "scalars/algebra/linear_system.hpp"
 #include "scalars/evaluation/tape.hpp"
 #include "scalars/index.hpp"
 #include "scalars/operations/all.hpp"
+#include "scalars/program/angles.hpp"
 #include "scalars/program/program.hpp"
 #include "scalars/traits.hpp"
 
@@ -91,12 +93,7 @@ class Evaluator {
           acc = S(1.0) / a;
           break;
         case TapeOp::function:
-          withFunction(i.function, [&](auto f) {
-            if constexpr (requires { f.ofSample(a, acc, slots[i.b]); })
-              f.ofSample(a, acc, slots[i.b]);
-            else
-              evaluate(f, a, acc, slots[i.b]);
-          });
+          apply(i, a, slots[i.b], acc);
           break;
         case TapeOp::factorise:
           factorise(detail::at(i.result));
@@ -107,6 +104,20 @@ class Evaluator {
       }
       if (i.stores) slots[i.result] = acc;
     }
+  }
+
+  GAMUT_INLINE static void apply(const Instruction& i, const S& a, S& b, S& result) {
+    if constexpr (std::is_same_v<S, Interval>)
+      if (i.function == Op::atan && i.b != i.a) {
+        result = halfAngle(a, b);
+        return;
+      }
+    withFunction(i.function, [&](auto f) {
+      if constexpr (requires { f.ofSample(a, result, b); })
+        f.ofSample(a, result, b);
+      else
+        evaluate(f, a, result, b);
+    });
   }
 
   void factorise(std::size_t number) {

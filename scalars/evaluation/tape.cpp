@@ -2,6 +2,7 @@
 // they use; in what order; and which slot each value gets (a linear scan, M. Poletto and V. Sarkar 1999).
 #include "scalars/evaluation/tape.hpp"
 #include "scalars/index.hpp"
+#include "scalars/program/angles.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -42,6 +43,8 @@ class TapeWriter {
   TapeWriter(const Program& program, Tape& tape) : program_(program), nodes_(program.nodes()), tape_(tape) {}
 
   void write() {
+    denominator_.assign(nodes_.size(), -1);
+    for (const int angle : halfAnglesOf(program_)) denominator_[angle] = denominatorOf(program_, angle);
     countUses();
     fuse();
     findUniform();
@@ -89,6 +92,7 @@ class TapeWriter {
       } else {
         ++uses_[node(i).a];
         if (operandsOf(node(i).op) == 2) ++uses_[node(i).b];
+        if (denominator_[i] >= 0) ++uses_[denominator_[i]];
       }
     }
   }
@@ -197,7 +201,11 @@ class TapeWriter {
     else if (n.op == Op::mul)
       result.chain.push_back(instruction(TapeOp::product, n.a, n.b));
     else
-      result.chain.push_back({.op = unary(n.op), .stores = false, .function = n.op, .a = n.a, .b = n.a});
+      result.chain.push_back({.op = unary(n.op),
+                              .stores = false,
+                              .function = n.op,
+                              .a = n.a,
+                              .b = denominator_[i] >= 0 ? denominator_[i] : n.a});
     result.chain.back().stores = true;
     for (Instruction& part : result.chain) markUniform(part);
     for (const Instruction& part : result.chain) result.reads.insert(result.reads.end(), {part.a, part.b});
@@ -304,6 +312,7 @@ class TapeWriter {
       }
       mark(node(i).a);
       if (operandsOf(node(i).op) == 2) mark(node(i).b);
+      if (denominator_[i] >= 0) mark(denominator_[i]);
     }
     for (int output : program_.outputNodes()) mark(output);
     for (int i = 0; i < count(); ++i)
@@ -394,7 +403,8 @@ class TapeWriter {
   const std::vector<Node>& nodes_;
   Tape& tape_;
   std::vector<int> uses_, accumulator_, slot_;
-  std::vector<int> system_;  // of each matrix, -1 before its factorisation
+  std::vector<int> denominator_;  // of each node that is half of an angle, else -1
+  std::vector<int> system_;       // of each matrix, -1 before its factorisation
   std::vector<bool> isOutput_, isMatrixNeeded_, absorbed_, isUniform_;
 };
 

@@ -40,7 +40,7 @@ struct Instruction {
   Op function = Op::state;  ///< which, where op is TapeOp::function
   std::int32_t result = 0;
   std::int32_t a = 0;
-  std::int32_t b = 0;  ///< a where the operation has one operand
+  std::int32_t b = 0;  ///< a where the operation has one operand; of half of an angle (angles.hpp) its d
 };
 
 /// A matrix, factorised once for all its solutions.

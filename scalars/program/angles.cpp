@@ -94,6 +94,23 @@ bool isLength(const Program& program, int r, int x, const std::vector<int>& y) {
   return (isSquareOf(sum.a, ofX) && isSquareOf(sum.b, ofY)) || (isSquareOf(sum.b, ofX) && isSquareOf(sum.a, ofY));
 }
 
+/// d = r ± x, where r is √(x² + y²).
+struct Denominator {
+  int r = -1, x = -1;
+  bool isDifference = false;
+};
+
+std::optional<Denominator> denominatorAt(const Program& program, const HalfAngle& of) {
+  const Node& sum = program.nodes()[of.d];
+  if (sum.op != Op::add && sum.op != Op::sub) return std::nullopt;
+  const auto isOurs = [&](int root, int x) {
+    return program.nodes()[root].op == Op::sqrt && isLength(program, root, x, of.y);
+  };
+  if (isOurs(sum.a, sum.b)) return Denominator{sum.a, sum.b, sum.op == Op::sub};
+  if (sum.op == Op::add && isOurs(sum.b, sum.a)) return Denominator{sum.b, sum.a};
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<int> halfAnglesOf(const Program& program) {
@@ -107,6 +124,13 @@ int denominatorOf(const Program& program, int halfAngle) {
   return halfAngleAt(program, program.nodes()[halfAngle]).value().d;
 }
 
+std::optional<Abscissa> abscissaOf(const Program& program, int node) {
+  const std::optional<HalfAngle> angle = halfAngleAt(program, program.nodes()[node]);
+  if (!angle) return std::nullopt;
+  const std::optional<Denominator> d = denominatorAt(program, *angle);
+  return d ? std::optional(Abscissa{d->x, d->isDifference}) : std::nullopt;
+}
+
 Program withHalfTurns(const Program& program) {
   const std::vector<int> angles = halfAnglesOf(program);
   if (angles.empty()) return program;
@@ -116,14 +140,9 @@ Program withHalfTurns(const Program& program) {
   for (const int angle : angles) {  // operands come first, so that angles of angles find theirs
     here = result.append(program, {}, instead);
     const HalfAngle of = *halfAngleAt(program, program.nodes()[angle]);
-    const Node& sum = program.nodes()[of.d];
-    if (sum.op != Op::add && sum.op != Op::sub) continue;
-    const auto isRoot = [&](int node) { return program.nodes()[node].op == Op::sqrt; };
-    const auto isOurs = [&](int root, int x) { return isRoot(root) && isLength(program, root, x, of.y); };
-    const bool isFirst = isOurs(sum.a, sum.b);
-    if (!isFirst && !(sum.op == Op::add && isOurs(sum.b, sum.a))) continue;
-    const int r = here[isFirst ? sum.a : sum.b], other = here[isFirst ? sum.b : sum.a];
-    const int x = sum.op == Op::sub ? result.neg(other) : other;
+    const std::optional<Denominator> sum = denominatorAt(program, of);
+    if (!sum || result.isExactly(here[program.nodes()[angle].a], 0)) continue;  // of y = 0 `append` knows the angle
+    const int r = here[sum->r], x = sum->isDifference ? result.neg(here[sum->x]) : here[sum->x];
     const int d = result.add(r, result.abs(x)), inverse = result.sqr(result.recip(result.sqrt(d)));
     std::vector<int> own = instead;
     for (std::size_t i = 0; i < own.size(); ++i)

@@ -11,6 +11,7 @@
 
 #include "scalars/index.hpp"
 #include "scalars/operations/all.hpp"
+#include "scalars/program/angles.hpp"
 #include "scalars/program/rules.hpp"
 
 namespace gamut {
@@ -32,6 +33,9 @@ std::vector<int> keyOf(const LinearSolution& solution) {
   key.insert(key.end(), solution.rightSide.begin(), solution.rightSide.end());
   return key;
 }
+
+/// Half of the angle of (x, 0): 0 or π/2, where the formula of (x, y) says 0 of both.
+int halfAngleOfAxis(Recorder& r, int x) { return r.mul(r.atan(r.constant(1.0)), r.sub(r.constant(1.0), r.sign(x))); }
 
 }  // namespace
 
@@ -277,6 +281,10 @@ std::vector<int> Recorder::append(const Program& program, const std::vector<int>
           const auto [first, second] = pair(n.op, a);
           here.push_back(first);
           twin = second;
+        } else if (const auto x = n.op == Op::atan && isExactly(a, 0)
+                                      ? abscissaOf(program, static_cast<int>(here.size()))
+                                      : std::nullopt) {
+          here.push_back(halfAngleOfAxis(*this, x->isNegated ? neg(here[x->node]) : here[x->node]));
         } else {
           here.push_back(isTwin(n.op) ? twin : emit(n.op, a, b));
         }

@@ -107,7 +107,7 @@ class Recorder {
   /// has the value. It may have fewer states and parameters than this recorder.
   std::vector<int> append(const Program& program) { return append(program, {}); }
   /// The same with the nodes `parameters` in place of its parameters (empty: this recorder's), and, where `instead` has
-  /// one (not -1) for a node of the program, with that in its place.
+  /// one (not -1) for a node of the program, with that in its place. Angles of y = 0 become the axis' (angles.hpp).
   std::vector<int> append(const Program& program, const std::vector<int>& parameters,
                           const std::vector<int>& instead = {});
 
