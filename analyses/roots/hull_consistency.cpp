@@ -4,11 +4,13 @@
 #include <limits>
 
 #include "scalars/operations/all.hpp"
+#include "scalars/program/angles.hpp"
 
 namespace gamut {
 namespace {
 
 const Interval nonnegative(0.0, std::numeric_limits<double>::infinity());
+const Interval belowNumbers(-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::max());
 
 /// Both of a set and of its mirror image.
 Interval eitherSign(const Interval& of, const Interval& within) {
@@ -48,7 +50,11 @@ Interval quotientWithin(const Interval& v, const Interval& b, const Interval& wi
 }
 
 HullConsistency::HullConsistency(const Program& f, const Box& parameters, const Interval& time)
-    : f_(f), fixed_(f.nodes().size(), Interval(0.0)), systems_(f.matrices().size()) {
+    : f_(f),
+      denominators_(f.nodes().size(), -1),
+      fixed_(f.nodes().size(), Interval(0.0)),
+      systems_(f.matrices().size()) {
+  for (const int angle : halfAnglesOf(f)) denominators_[angle] = denominatorOf(f, angle);
   range_ = fixed_;
   isFactorised_.assign(systems_.size(), 0);
   for (std::size_t i = 0; i < f.nodes().size(); ++i) {
@@ -84,7 +90,7 @@ void HullConsistency::evaluateNode(int i) {
       range_[i] = sqr(range_[n.a]);
       break;
     case Op::recip:
-      range_[i] = Interval(1.0) / range_[n.a];
+      range_[i] = isEqual(range_[n.a], 0.0) ? Interval::entire() : Interval(1.0) / range_[n.a];
       break;
     case Op::solution: {
       if (n.b > 0) break;
@@ -102,10 +108,26 @@ void HullConsistency::evaluateNode(int i) {
       break;
     }
     default:
-      if (!isTwin(n.op))
-        withFunction(n.op,
-                     [&](auto f) { gamut::evaluate(f, range_[n.a], range_[i], range_[hasTwin(n.op) ? i + 1 : i]); });
+      if (!isTwin(n.op)) evaluateFunction(i);
   }
+}
+
+void HullConsistency::evaluateFunction(int i) {
+  const Node& n = f_.nodes()[i];
+  if (denominators_[i] >= 0)
+    range_[i] = halfAngle(range_[n.a], range_[denominators_[i]]);
+  else if (n.op == Op::log && isEqual(range_[n.a], 0.0))
+    range_[i] = belowNumbers;
+  else
+    withFunction(n.op, [&](auto f) { gamut::evaluate(f, range_[n.a], range_[i], range_[hasTwin(n.op) ? i + 1 : i]); });
+}
+
+/// What the value of node i, half of an angle, leaves of its tangent: all where it may be π/2.
+bool HullConsistency::goBackFromHalfAngle(int i) {
+  const Interval &v = range_[i], &d = range_[denominators_[i]];
+  const int tangent = f_.nodes()[i].a;
+  if (mayBeStraight(range_[tangent], d) && !isDisjoint(v, halfPi())) return true;
+  return d.upper() > 0 && narrow(tangent, tan(intersection(v, atan(range_[tangent]))));
 }
 
 /// False where F has no value at all.
@@ -128,6 +150,13 @@ bool HullConsistency::evaluate(const Box& z) {
 }
 
 bool HullConsistency::isTameOn(const Box& z) { return evaluate(z) && isTame_; }
+
+bool HullConsistency::evaluate(const Box& z, Box& values) {
+  values.clear();
+  if (!evaluate(z)) return false;
+  for (const int output : f_.outputNodes()) values.push_back(range_[output]);
+  return true;
+}
 
 bool HullConsistency::narrow(int node, const Interval& to) {
   range_[node] = intersection(range_[node], to);
@@ -156,7 +185,7 @@ bool HullConsistency::goBack(int i) {
     case Op::sqrt:
       return narrow(n.a, sqr(intersection(v, nonnegative)));
     case Op::atan:
-      return narrow(n.a, tan(v));
+      return denominators_[i] >= 0 ? goBackFromHalfAngle(i) : narrow(n.a, tan(v));
     case Op::abs:
       return narrow(n.a, eitherSign(intersection(v, nonnegative), a));
     case Op::sign:

@@ -1,5 +1,9 @@
 // What a box loses by equations F(z) = 0, operation by operation: forward each node's range, backward what its value
 // leaves of its operands' (HC4: F. Benhamou et al., ICLP 1999). No pair of values that solves the equations is lost.
+//
+// What is infinite may have a value in the end, as exp(p log x) and half of an angle of two coordinates have
+// (scalars/program/angles.hpp): 1/0 is anything, log 0 is below all numbers. Half of an angle is π/2 where d = 0: where
+// it may be, what it is says nothing of y and d.
 #pragma once
 
 #include <vector>
@@ -22,14 +26,19 @@ class HullConsistency {
   bool isTame() const { return isTame_; }
   /// The same of this box, from which nothing is taken.
   bool isTameOn(const Box& z);
+  /// What F is in over the box; false where it has no value at all.
+  bool evaluate(const Box& z, Box& values);
 
  private:
   bool evaluate(const Box& z);
   void evaluateNode(int i);
+  void evaluateFunction(int i);
+  bool goBackFromHalfAngle(int i);
   bool goBack(int i);
   bool narrow(int node, const Interval& to);
 
   const Program& f_;
+  std::vector<int> denominators_;         // of each node that is half of an angle: d; -1: it is none
   std::vector<Interval> fixed_;           // of what does not depend on states
   std::vector<Interval> range_, before_;  // of all nodes: as narrowed so far, and not
   std::vector<LinearSystem<Interval>> systems_;

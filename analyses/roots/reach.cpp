@@ -593,9 +593,8 @@ Reach reach(const Program& f, const Box& region, const Box& parameters, const Bo
 Box outputsOver(const Program& f, std::size_t outputs, const Box& region, const Box& parameters, ReachSearch search) {
   constexpr std::size_t most = 512;
   constexpr int coarse = 16;
-  Evaluator<Interval> evaluator(f);
-  evaluator.setParameters(parameters);
-  std::vector<Interval> values(f.outputs());
+  HullConsistency ranges(f, parameters, Interval(0.0));
+  Box values;
   Box all(outputs, Interval::empty());
   std::vector<Box> parts{region};
   // Each side as often as the others, in their units.
@@ -612,7 +611,7 @@ Box outputsOver(const Program& f, std::size_t outputs, const Box& region, const 
     parts = std::move(halves);
   }
   for (const Box& part : parts) {
-    evaluator(Interval(0.0), std::span<const Interval>(part), std::span<Interval>(values));
+    if (!ranges.evaluate(part, values)) continue;
     for (std::size_t k = 0; k < outputs; ++k) all[k] = hull(all[k], values[k]);
   }
   for (const Interval& each : all)

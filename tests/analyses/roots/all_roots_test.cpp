@@ -766,6 +766,22 @@ TEST(AllRoots, TakeOneThatIsKnownForAllParameters) {
   }
 }
 
+/// No root is denied where values are infinite on the way: π - x = 5, π = p, 0^0.3 + x = ½.
+TEST(AllRoots, DenyNoneWhereFormulasHaveNoValue) {
+  const auto deny = [](const Interval& region, const Interval& parameter, auto of) {
+    const Program f = record(1, 1, 1, [of](auto, const auto& x, const auto& p, auto& y) { y[0] = of(x[0], p[0]); });
+    const AllRoots found = allRoots(f, {region}, {parameter});
+    return found.isComplete() && found.families.empty();
+  };
+  const auto along = [](const auto& x, const auto& p) { return atan2(p, x) - x - 5.0; };
+  EXPECT_FALSE(deny({-2, -1}, 0.0, along));
+  EXPECT_FALSE(deny({-2, -1}, {-0.1, 0}, along));
+  EXPECT_TRUE(deny({-2, -1}, {-0.1, -0.05}, along));
+  EXPECT_TRUE(deny({1, 2}, {-0.1, 0}, along));
+  EXPECT_FALSE(deny({-0.1, 0}, {3, 3.2}, [](const auto& x, const auto& p) { return atan2(x, Recorded(-1.0)) - p; }));
+  EXPECT_FALSE(deny({0, 1}, 0.0, [](const auto& x, const auto& p) { return pow(p, Recorded(0.3)) + x - 0.5; }));
+}
+
 /// A known root hides no other: x² = p has two.
 TEST(AllRoots, FindOthersBesideOneThatIsKnown) {
   const Program f = record(1, 1, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = sqr(x[0]) - p[0]; });

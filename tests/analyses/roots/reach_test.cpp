@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -218,6 +219,52 @@ TEST(Reach, IsWhatOutputsAreOver) {
     EXPECT_TRUE(Number(side.upper()) >= Number(0.5) + Number(0.3));
     EXPECT_LT(width(side), 1.9);
   }
+}
+
+/// Of one output over [-4, 4] in cells of a quarter.
+Reach lineOf(const Program& f, const Box& region, const Box& parameters) {
+  return reach(f, region, parameters, {Interval(-4, 4)},
+               {.cells = {32}, .inner = region, .turning = std::vector<bool>(region.size(), false)});
+}
+Reached saidOf(const Reach& found, double at) { return found.cells[static_cast<std::size_t>((at + 4) * 4)]; }
+
+/// The angle of the negative axis is π, though d = 0 there.
+TEST(Reach, HoldsTheAngleOfTheNegativeAxis) {
+  const Program angle =
+      record(1, 1, 1, [](auto, const auto& y, const auto& x, auto& of) { of[0] = atan2(y[0], x[0]); });
+  const Program across =
+      record(1, 1, 1, [](auto, const auto& x, const auto& y, auto& of) { of[0] = atan2(y[0], x[0]); });
+  const Program both = record(2, 0, 1, [](auto, const auto& x, const auto&, auto& of) { of[0] = atan2(x[0], x[1]); });
+  const double half = std::numbers::pi;
+  for (const Interval& x : {Interval(-1.0), Interval(-0.3), Interval(-2.0, -1.0), Interval(-0x1p-900)}) {
+    const double far = 0.1 * magnitude(x);
+    for (const Interval& y : {Interval(-far, 0.0), Interval(0.0, far), Interval(-far, far)}) {
+      for (const Reach& found : {lineOf(angle, {y}, {x}), lineOf(both, {y, x}, {})}) {
+        EXPECT_EQ(saidOf(found, half), Reached::unknown) << x << y;
+        EXPECT_EQ(saidOf(found, 3.5), Reached::never) << x << y;
+        if (y.lower() < 0) {
+          EXPECT_NE(saidOf(found, -3.05), Reached::never) << x << y;
+        }
+        if (y.upper() == 0) {
+          for (const double between : {0.3, 1.0, 2.6}) EXPECT_EQ(saidOf(found, between), Reached::never) << x << y;
+        }
+      }
+      const Box over = outputsOver(both, 1, {y, x}, {}, {.inner = {y, x}, .turning = {false, false}});
+      EXPECT_TRUE(Number(over[0].upper()) >= atan2(Number(0), Number(-1))) << x << y << over[0];
+    }
+    const Reach found = lineOf(across, {hull(2.0 * x, x)}, {Interval(0.0)});
+    EXPECT_EQ(saidOf(found, half), Reached::unknown) << x;
+    EXPECT_EQ(std::ranges::count(found.cells, Reached::never), 31) << x;
+  }
+}
+
+/// What is infinite on the way has a value in the end.
+TEST(Reach, HoldsPowersOfZero) {
+  const Program f = record(
+      1, 1, 1, [](auto, const auto& x, const auto& p, auto& of) { of[0] = 2.0 * x[0] + pow(p[0], Recorded(0.3)); });
+  const Reach found = lineOf(f, {Interval(0, 1)}, {Interval(0.0)});
+  for (const double value : {0.1, 1.1, 1.9}) EXPECT_NE(saidOf(found, value), Reached::never);
+  EXPECT_EQ(saidOf(found, 2.5), Reached::never);
 }
 
 TEST(Reach, RefusesWhatDoesNotFit) {
