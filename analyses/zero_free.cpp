@@ -14,7 +14,9 @@
 #include "analyses/flow/outputs/plain_outputs.hpp"
 #include "analyses/work.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/program/angles.hpp"
 #include "scalars/program/differentiation.hpp"
+#include "scalars/program/recorder.hpp"
 #include "scalars/program/time_given.hpp"
 
 namespace gamut {
@@ -34,6 +36,9 @@ struct OpenPart {
 class ValuesOverParts {
  public:
   explicit ValuesOverParts(const Program& g) : g_(g), plain_(g) {
+    std::vector<int> denominators;
+    for (const int angle : halfAnglesOf(g)) denominators.push_back(denominatorOf(g, angle));
+    if (!denominators.empty()) denominators_.emplace(Recorder(g).finish(denominators));
     // Across a jump no derivative tells anything; across a kink those of both sides do, together (Lebourg 1975).
     const bool jumps = std::ranges::any_of(g.nodes(), [](const Node& node) { return node.op == Op::sign; });
     if (!jumps) withSlopes_.emplace(reverseDifferentiated(withTimeGiven(g), true));
@@ -51,7 +56,7 @@ class ValuesOverParts {
   /// The least that the output may be: as the mean value form about the middle knows it, too.
   double lowest(double begin, double end, const Box& box, std::size_t output) {
     const double plain = lowerOf(plainly(begin, end, box)[output]);
-    if (plain > 0 || !withSlopes_) return plain;
+    if (plain > 0 || !withSlopes_ || mayTurnOver(begin, end, box)) return plain;
     Box middle = box;
     for (Interval& each : middle) each = Interval(midpoint(each));
     const double time = midpoint(Interval(begin, end));
@@ -84,12 +89,20 @@ class ValuesOverParts {
 
   /// Whether the output is known to have a value all over these, and to jump nowhere.
   bool isContinuousOver(double begin, double end, const Box& box, std::size_t output) {
-    if (!withSlopes_) return false;
+    if (!withSlopes_ || mayTurnOver(begin, end, box)) return false;
     if (!defined_) defined_.emplace(g_);
-    if (defined_->hasAngles()) return false;
     const auto parameters = box.begin() + g_.states();
     return isBounded(defined_->over(static_cast<int>(output), Interval(begin, end), {box.begin(), parameters},
                                     {parameters, box.end()}));
+  }
+
+  /// Whether an angle of two coordinates may jump by a whole turn.
+  bool mayTurnOver(double begin, double end, const Box& box) {
+    if (!denominators_) return false;
+    const auto parameters = box.begin() + g_.states();
+    denominators_->setParameters(std::vector<Interval>(parameters, box.end()));
+    return !std::ranges::all_of((*denominators_)(Interval(begin, end), std::vector<Interval>(box.begin(), parameters)),
+                                [](const Interval& d) { return d.lower() > 0; });
   }
 
   static double lowerOf(const Interval& value) {
@@ -99,8 +112,8 @@ class ValuesOverParts {
  private:
   const Program& g_;
   Evaluator<Interval> plain_;
-  std::optional<Evaluator<Interval>> withSlopes_;
-  std::optional<PlainOutputs> defined_;  // where it is first asked for
+  std::optional<Evaluator<Interval>> withSlopes_, denominators_;  // none where nothing is known of slopes; no angles
+  std::optional<PlainOutputs> defined_;                           // where it is first asked for
   std::vector<Interval> values_;
 };
 

@@ -132,6 +132,19 @@ TEST(ZeroFree, DoesNotStepOverJumps) {
   EXPECT_LE(zeroFree(bent, boxOf({Interval(0.4, 0.6)}), 1.0).until, 0.4 - 1e-3);
 }
 
+/// The angle of the negative axis is π, from whichever side y comes to it.
+TEST(ZeroFree, DoesNotStepOverWholeTurns) {
+  const Program angle = valuesOf(1, [](const auto& t, const auto& p) { return 1.0 - atan2(p[0], -1.0 - t); });
+  for (const Interval& y : {Interval(0.0), Interval(-0.1, 0.0), Interval(-0.1, 0.1)})
+    EXPECT_LT(zeroFree(angle, boxOf({y}), 1.0).until, 0) << y;
+  EXPECT_EQ(zeroFree(angle, boxOf({Interval(-0.1, -0.05)}), 1.0).until, 1.0);
+  const Program slow = valuesOf(1, [](const auto& t, const auto& p) {
+    const auto turned = atan2(p[0], 1.0 + t);
+    return turned - 0.9 * turned;
+  });
+  EXPECT_EQ(zeroFree(slow, boxOf({Interval(0.1, 0.5)}), 1.0).until, 1.0);  // by slopes
+}
+
 /// (t − ½)² − c is positive at both ends of any part about ½.
 TEST(ZeroFree, SeesADipHoweverNarrow) {
   for (const double depth : {1e-4, 1e-8, 1e-12, 0.0}) {
