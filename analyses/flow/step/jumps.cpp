@@ -244,7 +244,7 @@ void JumpBounder::bound(const Interval& time, const Box& box, const std::vector<
   }
   for (int round = 0; round < rounds; ++round)
     for (std::size_t k = 0; k < bounds.size(); ++k) {
-      if (!isBounded(start[k])) continue;
+      if (!isCommon(start[k])) continue;
       boundOne(k, time, narrowed, start[k], h, bounds);
       if (jumps_.forms[k]) narrow(*jumps_.forms[k], bounds[k].over, narrowed);
     }

@@ -72,6 +72,7 @@ TEST(JumpBounder, SaysWhichSignsOccur) {
   const JumpBound stays = signOf(Interval(0.25, 0.5), Interval(1, 2), 0.5);
   EXPECT_TRUE(isEqual(stays.sign, Interval(1.0)));
   EXPECT_FALSE(signOf(Interval(0.25, 0.5), Interval::entire(), 1).isKnown());
+  EXPECT_FALSE(signOf(Interval(0.25, 0.5), Interval::empty(), 1).isKnown());  // it has no value
 }
 
 TEST(FlowJumps, KnowNothingOfArgumentsThatInputsMove) {
