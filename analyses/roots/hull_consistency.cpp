@@ -10,7 +10,7 @@ namespace gamut {
 namespace {
 
 const Interval nonnegative(0.0, std::numeric_limits<double>::infinity());
-const Interval belowNumbers(-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::max());
+const Interval justPositive(0.0, std::numeric_limits<double>::denorm_min());
 
 /// Both of a set and of its mirror image.
 Interval eitherSign(const Interval& of, const Interval& within) {
@@ -116,10 +116,11 @@ void HullConsistency::evaluateFunction(int i) {
   const Node& n = f_.nodes()[i];
   if (denominators_[i] >= 0)
     range_[i] = halfAngle(range_[n.a], range_[denominators_[i]]);
-  else if (n.op == Op::log && isEqual(range_[n.a], 0.0))
-    range_[i] = belowNumbers;
   else
-    withFunction(n.op, [&](auto f) { gamut::evaluate(f, range_[n.a], range_[i], range_[hasTwin(n.op) ? i + 1 : i]); });
+    withFunction(n.op, [&](auto f) {
+      const bool isAtEdge = f.domain == Domain::positive && isEqual(range_[n.a], 0.0);  // what it comes to there
+      gamut::evaluate(f, isAtEdge ? justPositive : range_[n.a], range_[i], range_[hasTwin(n.op) ? i + 1 : i]);
+    });
 }
 
 /// What the value of node i, half of an angle, leaves of its tangent: all where it may be π/2.

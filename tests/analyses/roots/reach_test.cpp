@@ -249,7 +249,7 @@ TEST(Reach, HoldsTheAngleOfTheNegativeAxis) {
           for (const double between : {0.3, 1.0, 2.6}) EXPECT_EQ(saidOf(found, between), Reached::never) << x << y;
         }
       }
-      const Box over = outputsOver(both, 1, {y, x}, {}, {.inner = {y, x}, .turning = {false, false}});
+      const Box over = outputsOver(both, 1, {y, x}, {}, {.cells = {}, .inner = {y, x}, .turning = {false, false}});
       EXPECT_TRUE(Number(over[0].upper()) >= atan2(Number(0), Number(-1))) << x << y << over[0];
     }
     const Reach found = lineOf(across, {hull(2.0 * x, x)}, {Interval(0.0)});
