@@ -125,7 +125,7 @@ TEST_F(RanksOfProgram, GoOnWhereOneWasKilled) {
 
 /// A limit of time, which each notes for itself.
 TEST_F(RanksOfProgram, KeepWhatWasFoundUntilALimit) {
-  const Outcome ended = onRanks(3, "run s.toml --quiet --time-limit 0.3");
+  const Outcome ended = onRanks(3, "run s.toml --quiet --samples 200000 --time-limit 0.3");
   EXPECT_EQ(ended.exitCode, 3) << ended.error;
   EXPECT_THAT(results("s.h5").stopped, HasSubstr("the time limit of 0.3 s CPU"));
 }
