@@ -397,11 +397,16 @@ class RequirementProof {
   /// What single parts of the box are proved to do, for who looks for a better design: with a little of the work that
   /// is left, which takes none away from what comes later.
   void keepCells() {
-    constexpr double share = 0.1, most = 0.5 * Work::perSecond;  // the latter of a requirement
     if (run_.machine.constants.empty()) return;
     CheckpointedTask checkpoint(run_.options.checkpoints);
     const auto end = [&](Archive& all) { all(results_); };
     if (checkpoint.recall(end, {}) == CheckpointedTask::Recalled::end) return;
+    keepAllCells();
+    checkpoint.end(end);
+  }
+
+  void keepAllCells() {
+    constexpr double share = 0.1, most = 0.5 * Work::perSecond;  // the latter of a requirement
     const Work::Aside aside;
     const std::shared_ptr<const FlowModels> known = enclosure_.models ? models() : nullptr;
     const double work =
@@ -414,7 +419,6 @@ class RequirementProof {
       else if (isModelled(result) && work > 0)
         keepCells(*known, r, work);
     }
-    checkpoint.end(end);
   }
 
   void keepCells(const FlowModels& models, std::size_t number, double work) {
