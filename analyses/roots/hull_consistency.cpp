@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "scalars/evaluation/node.hpp"
 #include "scalars/operations/all.hpp"
 #include "scalars/program/angles.hpp"
 
@@ -73,42 +75,15 @@ HullConsistency::HullConsistency(const Program& f, const Box& parameters, const 
 
 void HullConsistency::evaluateNode(int i) {
   const Node& n = f_.nodes()[i];
-  switch (n.op) {
-    case Op::add:
-      range_[i] = range_[n.a] + range_[n.b];
-      break;
-    case Op::sub:
-      range_[i] = range_[n.a] - range_[n.b];
-      break;
-    case Op::neg:
-      range_[i] = -range_[n.a];
-      break;
-    case Op::mul:
-      range_[i] = range_[n.a] * range_[n.b];
-      break;
-    case Op::sqr:
-      range_[i] = sqr(range_[n.a]);
-      break;
-    case Op::recip:
-      range_[i] = isEqual(range_[n.a], 0.0) ? Interval::entire() : Interval(1.0) / range_[n.a];
-      break;
-    case Op::solution: {
-      if (n.b > 0) break;
-      const LinearSolution& solution = f_.solutions()[n.a];
-      const LinearMatrix& matrix = f_.matrices()[solution.matrix];
-      LinearSystem<Interval>& system = systems_[solution.matrix];
-      if (isFactorised_[solution.matrix] == 0) {
-        system.assign(matrix.kind, matrix.size, [&](int k, int l) { return range_[matrix.entry(k, l)]; });
-        isFactorised_[solution.matrix] = 1;
-      }
-      Box x;
-      for (const int r : solution.rightSide) x.push_back(range_[r]);
-      system.solve(x, solution.transposed);
-      for (std::size_t k = 0; k < x.size(); ++k) range_[i + k] = x[k];
-      break;
-    }
-    default:
-      if (!isTwin(n.op)) evaluateFunction(i);
+  if (setByArithmetic(n, range_, range_[i])) return;
+  if (n.op == Op::recip) {
+    range_[i] = isEqual(range_[n.a], 0.0) ? Interval::entire() : Interval(1.0) / range_[n.a];
+  } else if (n.op == Op::solution && n.b == 0) {
+    const int matrix = f_.solutions()[n.a].matrix;
+    if (std::exchange(isFactorised_[matrix], char{1}) == 0) assign(systems_[matrix], f_.matrices()[matrix], range_);
+    setSolution(f_, i, systems_[matrix], range_);
+  } else if (isFunction(n.op) && !isTwin(n.op)) {
+    evaluateFunction(i);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "scalars/algebra/linear_system.hpp"
+#include "scalars/evaluation/node.hpp"
 #include "scalars/operations/all.hpp"
 #include "scalars/program/angles.hpp"
 #include "scalars/program/recorder.hpp"
@@ -137,55 +137,27 @@ void NodeValues::setValue(int node, const Interval& t, const std::vector<Interva
                           const std::vector<Interval>& parameters) {
   const Node& n = g_->nodes()[node];
   Interval& value = value_[node];
-  switch (n.op) {
-    case Op::state:
-      value = states[n.a];
-      break;
-    case Op::parameter:
-      value = parameters[n.a];
-      break;
-    case Op::time:
-      value = t;
-      break;
-    case Op::constant:
-      value = g_->constants()[n.a];
-      break;
-    case Op::add:
-      value = value_[n.a] + value_[n.b];
-      break;
-    case Op::sub:
-      value = value_[n.a] - value_[n.b];
-      break;
-    case Op::neg:
-      value = -value_[n.a];
-      break;
-    case Op::mul:
-      value = value_[n.a] * value_[n.b];
-      break;
-    case Op::sqr:
-      value = sqr(value_[n.a]);
-      break;
-    case Op::solution:
-      if (n.b == 0) solve(node);
-      break;
-    default:
-      if (!isTwin(n.op)) {
-        const Interval argument = value_[n.a];
-        Interval none, &second = hasTwin(n.op) ? value_[node + 1] : none;
-        withFunction(n.op, [&](auto f) { gamut::evaluate(f, argument, value, second); });
-      }
+  if (n.op == Op::state) {
+    value = states[n.a];
+  } else if (n.op == Op::parameter) {
+    value = parameters[n.a];
+  } else if (n.op == Op::time) {
+    value = t;
+  } else if (n.op == Op::constant) {
+    value = g_->constants()[n.a];
+  } else if (n.op == Op::solution) {
+    if (n.b != 0) return;
+    LinearSystem<Interval> system;
+    assign(system, g_->matrices()[g_->solutions()[n.a].matrix], value_);
+    setSolution(*g_, node, system, value_);
+  } else if (isFunction(n.op)) {
+    if (isTwin(n.op)) return;
+    const Interval argument = value_[n.a];
+    Interval none, &second = hasTwin(n.op) ? value_[node + 1] : none;
+    withFunction(n.op, [&](auto f) { gamut::evaluate(f, argument, value, second); });
+  } else {
+    setByArithmetic(n, value_, value);
   }
-}
-
-void NodeValues::solve(int first) {
-  const LinearSolution& solution = g_->solutions()[g_->nodes()[first].a];
-  const LinearMatrix& matrix = g_->matrices()[solution.matrix];
-  LinearSystem<Interval> system;
-  system.assign(matrix.kind, matrix.size, [&](int i, int j) { return value_[matrix.entry(i, j)]; });
-  std::vector<Interval> x;
-  for (const int r : solution.rightSide) x.push_back(value_[r]);
-  system.solve(x, solution.transposed);
-  std::ranges::copy(x, value_.begin() + first);
 }
 
 PlainOutputs::PlainOutputs(const Program& g)

@@ -38,7 +38,6 @@ class NodeValues {
  private:
   void setValue(int node, const Interval& t, const std::vector<Interval>& states,
                 const std::vector<Interval>& parameters);
-  void solve(int first);
 
   std::shared_ptr<const Program> g_;
   std::vector<char> isOneSided_;  // of each node: it takes a root or a logarithm
