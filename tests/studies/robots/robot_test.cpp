@@ -13,6 +13,7 @@
 #include "studies/robots/robot.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
+#include "tests/studies/replaced.hpp"
 #include "tests/studies/sample_robots.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
@@ -33,12 +34,6 @@ std::string complaintAbout(const std::string& urdf) {
     return error.what();
   }
   return "it was read";
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& other) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), other);
 }
 
 std::string robotWith(const std::string& what, const std::string& other) { return replaced(sampleRobot, what, other); }

@@ -10,6 +10,7 @@
 #include "studies/running/run.hpp"
 #include "tests/analyses/reference.hpp"
 #include "tests/studies/four_bar_text.hpp"
+#include "tests/studies/replaced.hpp"
 
 namespace gamut {
 namespace dead_points {
@@ -17,10 +18,6 @@ namespace {
 
 using testing::fourBarText, testing::uncertain;
 using ::testing::HasSubstr;
-
-std::string replaced(std::string text, const std::string& old, const std::string& by) {
-  return text.replace(text.find(old), old.size(), by);
-}
 
 /// The four-bar linkage that starts as ever, told by its rocker: where that is, and how fast, follows from the crank.
 std::string byRocker(const std::string& uncertain) {

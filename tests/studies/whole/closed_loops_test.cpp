@@ -15,6 +15,7 @@
 #include "tests/analyses/reference.hpp"
 #include "tests/mechanics/four_bar.hpp"
 #include "tests/studies/four_bar_text.hpp"
+#include "tests/studies/replaced.hpp"
 
 namespace gamut {
 namespace {
@@ -310,23 +311,20 @@ TEST(ClosedLoopStudy, EndsWhereADriveCannotGoOn) {
 }
 
 /// `text` with another element ahead of the closure.
-std::string with(std::string text, const std::string& element) {
+std::string withElement(std::string text, const std::string& element) {
   return text.insert(text.find("[[mechanism.element]]\ntype = \"closure\""), "[[mechanism.element]]\n" + element);
 }
 
 TEST(ClosedLoopStudy, SaysWhatDoesNotFitALoop) {
   EXPECT_THAT(refusalOf(fourBarText("1", "", "to_axis = \"x\"")),
               HasSubstr("'C' is a pin, which holds no axis of `to`"));
-  EXPECT_THAT(refusalOf(with(fourBarText("1", "", "dependent = [\"D\", \"S\"]"),
-                             "type = \"spherical\"\nname = \"S\"\nfrom = \"inertial\"\nto = \"K4\"\n")),
+  EXPECT_THAT(refusalOf(withElement(fourBarText("1", "", "dependent = [\"D\", \"S\"]"),
+                                    "type = \"spherical\"\nname = \"S\"\nfrom = \"inertial\"\nto = \"K4\"\n")),
               HasSubstr("the joint 'S' has no coordinates for 'C', as the turns of a ball are none"));
-  EXPECT_THAT(refusalOf(with(fourBarText("1", ""),
-                             "type = \"revolute\"\nname = \"E\"\nfrom = \"inertial\"\nto = \"K4\"\naxis = \"z\"\n")),
-              HasSubstr("'E.rate' moves no mass, nor does what closes loops with it"));
-}
-
-std::string replaced(std::string text, const std::string& old, const std::string& by) {
-  return text.replace(text.find(old), old.size(), by);
+  EXPECT_THAT(
+      refusalOf(withElement(fourBarText("1", ""),
+                            "type = \"revolute\"\nname = \"E\"\nfrom = \"inertial\"\nto = \"K4\"\naxis = \"z\"\n")),
+      HasSubstr("'E.rate' moves no mass, nor does what closes loops with it"));
 }
 
 /// Coupler and rocker lie in line, 0.3 m and 0.2 m over the long side of a triangle of 3, 4 and 5.

@@ -23,21 +23,21 @@ using testing::Vector;
 
 Machine machineOf(const std::string& text) { return Machine(readStudyText(text, "s.toml")); }
 
-std::string replaced(std::string text, const std::string& old, const std::string& by) {
+std::string everywhere(std::string text, const std::string& old, const std::string& by) {
   for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size()))
     text.replace(at, old.size(), by);
   return text;
 }
 
 std::string held(const std::string& text) {
-  return replaced(text, "[mechanism]\n", "[mechanism]\nloops = \"multipliers\"\n");
+  return everywhere(text, "[mechanism]\n", "[mechanism]\nloops = \"multipliers\"\n");
 }
 
 /// The rocker moves by itself, crank and coupler follow: twice a turn of the crank they lie in line, where they cannot.
 std::string byRocker(const std::string& horizon, const std::string& uncertain, const std::string& rocker) {
   const std::string text =
-      replaced(fourBarText(horizon, uncertain, "dependent = [\"A\", \"B\"]"), "angle = 1, rate = 4", "angle = 1");
-  return replaced(text, "initial = { angle = 1.6 }", "initial = { " + rocker + " }");
+      everywhere(fourBarText(horizon, uncertain, "dependent = [\"A\", \"B\"]"), "angle = 1, rate = 4", "angle = 1");
+  return everywhere(text, "initial = { angle = 1.6 }", "initial = { " + rocker + " }");
 }
 
 Tube enclosed(const Machine& machine, const std::vector<double>& times) {
@@ -105,9 +105,9 @@ TEST(HeldLoop, IsOneOfTwo) {
   std::string other = one.substr(begin, end - begin), outputs = one.substr(end);
   for (const char* name : {"A", "B", "D", "K1", "K2", "K3", "PB", "PD", "C1", "C2", "C", "ab", "bc", "dc", "ground",
                            "crank", "coupler", "rocker"})
-    other = replaced(other, std::string("\"") + name + "\"", std::string("\"other_") + name + "\"");
-  other = replaced(other, "angle = 2.06, rate = 1", "angle = 1.8, rate = -0.5");
-  outputs = replaced(outputs, "quantity = \"", "quantity = \"other_");
+    other = everywhere(other, std::string("\"") + name + "\"", std::string("\"other_") + name + "\"");
+  other = everywhere(other, "angle = 2.06, rate = 1", "angle = 1.8, rate = -0.5");
+  outputs = everywhere(outputs, "quantity = \"", "quantity = \"other_");
   const Machine machine = machineOf(one.substr(0, end) + other + one.substr(end) + outputs);
   const Tube tube = enclosed(machine, {0.5, 1, 2});
   ASSERT_EQ(tube.reached(), 2) << tube.why();
@@ -217,7 +217,7 @@ TEST(HeldLoop, BearsAForceThatVaries) {
   const std::string varying = uncertain({"load.moment"}, "± 5 %") + "varies = \"freely\"\n";
   for (const std::string& text :
        {fourBarText("0.2", varying), held(byRocker("0.1", varying, "angle = 2.06, rate = 1"))}) {
-    const Study study = readStudyText(replaced(text, "[[mechanism.element]]\ntype = \"closure\"", force), "s.toml");
+    const Study study = readStudyText(everywhere(text, "[[mechanism.element]]\ntype = \"closure\"", force), "s.toml");
     const Results results = run(study, {});
     EXPECT_EQ(results.comparison.verdict, Agreement::inside);
     EXPECT_EQ(results.interval.reached, study.horizon);
@@ -235,9 +235,9 @@ TEST(HeldLoop, IsRefusedWhereNothingMovesOrCloses) {
     return std::string();
   };
   const std::string text = held(fourBarText("1", ""));
-  EXPECT_THAT(refusalOf(replaced(text, "\"dynamics\"\nhorizon = 1\noutput_step = 1", "\"kinematics\"")),
+  EXPECT_THAT(refusalOf(everywhere(text, "\"dynamics\"\nhorizon = 1\noutput_step = 1", "\"kinematics\"")),
               HasSubstr("mechanism.loops has no meaning in kinematics"));
-  EXPECT_THAT(refusalOf(replaced(text, "\"multipliers\"", "\"springs\"")), HasSubstr("mechanism.loops"));
+  EXPECT_THAT(refusalOf(everywhere(text, "\"multipliers\"", "\"springs\"")), HasSubstr("mechanism.loops"));
   const std::size_t closure = text.find("[[mechanism.element]]\ntype = \"closure\"");
   EXPECT_THAT(refusalOf(text.substr(0, closure) + "[[output]]\nquantity = \"A.angle\"\n"),
               HasSubstr("mechanism.loops is given, but nothing closes a loop"));

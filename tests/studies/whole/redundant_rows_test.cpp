@@ -12,6 +12,7 @@
 #include "studies/study.hpp"
 #include "tests/analyses/reference.hpp"
 #include "tests/studies/four_bar_text.hpp"
+#include "tests/studies/replaced.hpp"
 
 namespace gamut {
 namespace redundant_studies {
@@ -20,12 +21,6 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::Vector;
-
-std::string replaced(std::string text, const std::string& old, const std::string& by) {
-  const std::size_t at = text.find(old);
-  EXPECT_NE(at, std::string::npos) << old;
-  return at == std::string::npos ? text : text.replace(at, old.size(), by);
-}
 
 std::string bennett() { return textOfStudy(GAMUT_SOURCE_DIR "/studies/examples/bennett/study.toml"); }
 
