@@ -73,16 +73,22 @@ class Sentence {
     else if (isProbabilityTelling())
       likely.push_back(violationShare(r_) + " of all cases, proved");
     if (r_.samples > 0) likely.push_back(simulatedFact());
-    return ViolationFacts{does(false) + window(), fmt::format("{}", fmt::join(likely, "; ")), missedFact()};
+    return ViolationFacts{(r_.word == Decision::partly ? "in some cases, " : "") + does(false) + window(),
+                          fmt::format("{}", fmt::join(likely, "; ")), missedFact()};
   }
 
  private:
   /// With what they tell of all cases, where they do not all violate it.
   std::string simulatedFact() const {
-    std::string text = fmt::format("{} of {} simulated cases", r_.violating, r_.samples);
+    std::string text = fmt::format("{} of {} simulated cases{}", r_.violating, r_.samples, whereLookedAt());
     if (r_.word != Decision::violated && !std::isnan(r_.shareLower))
       text += fmt::format(", so {} of all with 95 % confidence", percentRange(1 - r_.shareUpper, 1 - r_.shareLower));
     return text;
+  }
+
+  /// Samples are known at the output times alone.
+  const char* whereLookedAt() const {
+    return results_.horizon == 0 || r_.from == r_.until ? "" : " at the output times";
   }
 
   std::string said() const {
@@ -157,9 +163,11 @@ class Sentence {
     return true;
   }
 
-  /// The case that violates it, and by how much it does: "sample 17", "the limit by 0.2 mm at 3 s".
+  /// The case that violates it, its name, and by how much it does: "one simulated case", "sample 17", "the limit by
+  /// 0.2 mm at 3 s".
   struct Violation {
-    std::string who, missed;
+    std::string who, name, missed;
+    std::string named() const { return name.empty() ? who : fmt::format("{} ({})", who, name); }
   };
 
   std::optional<Violation> knownViolation() const {
@@ -170,24 +178,25 @@ class Sentence {
     if (name.empty() && !isMissKnown && !r_.isViolatedBetween) return std::nullopt;  // it would say nothing
     const std::string who = name.empty() ? "one case that was found"
                             : name.find("corner") != std::string::npos || isAtEnds()
-                                ? fmt::format("an extreme combination of the tolerances ({})", name)
-                            : name.find("point") != std::string::npos
-                                ? fmt::format("a combination within the tolerances ({})", name)
-                                : name;
+                                ? "an extreme combination of the tolerances"
+                            : name.find("point") != std::string::npos ? "a combination within the tolerances"
+                            : name.starts_with("sample")              ? "one simulated case"
+                                                                      : "an extreme case";
     const std::string what = demand_.where.empty() ? "that" : "the limit";
-    if (r_.isViolatedBetween) return Violation{who, what + " for an instant"};
-    if (!isMissKnown) return Violation{who, what};
-    return Violation{who, fmt::format("{} by {}{}", what, missOf(results_, r_),
-                                      std::isnan(r_.violationTime) || results_.horizon == 0
-                                          ? ""
-                                          : fmt::format(" at {} s", numberText(r_.violationTime, 6)))};
+    if (r_.isViolatedBetween) return Violation{who, name, what + " for an instant"};
+    if (!isMissKnown) return Violation{who, name, what};
+    return Violation{who, name,
+                     fmt::format("{} by {}{}", what, missOf(results_, r_),
+                                 std::isnan(r_.violationTime) || results_.horizon == 0
+                                     ? ""
+                                     : fmt::format(" at {} s", numberText(r_.violationTime, 6)))};
   }
 
   std::string violation() const {
     const std::optional<Violation> known = knownViolation();
     if (!known) return {};
-    return fmt::format("{}{} it misses {}.", r_.word == Decision::violated ? " For example, in " : " In ", known->who,
-                       known->missed);
+    return fmt::format("{}{} it misses {}.", r_.word == Decision::violated ? " For example, in " : " In ",
+                       known->named(), known->missed);
   }
 
   std::string missedFact() const {
@@ -197,11 +206,13 @@ class Sentence {
 
   std::string share() const {
     if (r_.samples == 0) return {};
-    if (r_.violating == 0) return fmt::format(" None of {} simulated cases was seen to miss it.", r_.samples);
-    return fmt::format(" {} of {} simulated cases {}.", r_.violating, r_.samples,
+    if (r_.violating == 0)
+      return fmt::format(" None of {} simulated cases was seen to miss it{}.", r_.samples, whereLookedAt());
+    return fmt::format(" {} of {} simulated cases {}{}.", r_.violating, r_.samples,
                        !r_.isAlways                                              ? "were not seen to meet it"
                        : r_.word == Decision::open && !r_.isViolatedInSimulation ? "seem to miss it"
-                                                                                 : "miss it");
+                                                                                 : "miss it",
+                       whereLookedAt());
   }
 
   const Results& results_;

@@ -326,7 +326,8 @@ Decision wordOfRequirements(const Results& results) {
 
 std::string shrinkSentence(const RequirementResult& requirement) {
   return requirement.factor > 0 && requirement.word != Decision::met
-             ? fmt::format(" It is met in every case if all tolerances shrink to {}.", percentText(requirement.factor))
+             ? fmt::format(" It is met in every case if all tolerances shrink to {} of what is stated.",
+                           percentText(requirement.factor))
              : "";
 }
 
@@ -361,7 +362,8 @@ std::string aloneSentence(const Results& results, const RequirementResult& requi
 std::string holdsText(const Results& results, const RequirementResult& requirement) {
   const bool isFactorKnown = requirement.factor > 0 && requirement.word != Decision::met;
   std::string text =
-      isFactorKnown ? fmt::format("if all tolerances shrink to {}", percentText(requirement.factor)) : "";
+      isFactorKnown ? fmt::format("if all tolerances shrink to {} of what is stated", percentText(requirement.factor))
+                    : "";
   const std::vector<WayAlone> ways = waysAlone(results, requirement);
   for (const WayAlone& way : ways)
     text += fmt::format("{}{} alone shrinks from {} to {}", text.empty() ? "if " : ", or ", way.name, way.stated,

@@ -47,16 +47,16 @@ std::string estimateOf(const RequirementResult& requirement);
 /// What they are together: met if all are, violated if one is, for some values at least, otherwise open.
 Decision wordOfRequirements(const Results& results);
 
-/// " It is met in every case if all tolerances shrink to 58.3 %."; empty of one that is met, or where nothing is known
-/// of it.
+/// " It is met in every case if all tolerances shrink to 58.3 % of what is stated."; empty of one that is met, or where
+/// nothing is known of it.
 std::string shrinkSentence(const RequirementResult& requirement);
 
 /// "± 2.1 %", "± 0.3 deg", "[19.9, 20.1] kN/m": the interval of a quantity that deviates so many times less, in the
 /// form in which the study states it, rounded inward.
 std::string narrowedText(const UncertainInfo& quantity, double factor);
 
-/// "if all tolerances shrink to 58.3 %, or damper alone from ± 5 % to ± 1.2 %": where it is proved to be met in every
-/// case; empty of one that is met, or where nothing is known.
+/// "if all tolerances shrink to 58.3 % of what is stated, or damper alone from ± 5 % to ± 1.2 %": where it is proved to
+/// be met in every case; empty of one that is met, or where nothing is known.
 std::string holdsText(const Results& results, const RequirementResult& requirement);
 
 /// " One tolerance alone would do: damper at ± 1.2 % instead of ± 5 %.", or that none would; empty where neither is

@@ -123,7 +123,7 @@ struct Essential {
 constexpr Essential essential[] = {
     {"guaranteed", Essential::Of::proof,
      "grey: the ends between which it lies in every case that the stated tolerances allow"},
-    {"tube", Essential::Of::proof},
+    {"tube", Essential::Of::proof, "thin grey: likewise between output times"},
     {"estimated", Essential::Of::all,
      "pink, dashed: behind the end of the proof, where simulated cases lie, which is not proved of all"},
     {"sampled", Essential::Of::samples, "blue, dashed: the least and the greatest of all simulated cases"},
@@ -157,16 +157,6 @@ Plot essentials(Plot plot, const std::vector<std::size_t>& limits) {
   return plot;
 }
 
-/// What is seen, in words: it needs no key.
-std::string captionOf(const Plot& plot) {
-  std::vector<std::string_view> said;
-  for (const Essential& one : essential)
-    if (!one.words.empty() && has(plot, one.layer)) said.push_back(one.words);
-  std::string words = fmt::format("{}", fmt::join(said, "; "));
-  if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-  return words + (words.empty() ? "" : ".");
-}
-
 std::string titleOfPlot(const Results& results, const Foremost& foremost) {
   const std::string& name = results.outputs[foremost.output].name;
   if (!foremost.limit) return name;
@@ -186,7 +176,7 @@ std::string plotOfForemost(const Results& results, const Foremost& foremost) {
     return fmt::format(
         "<section class=\"foremost\">\n<h3>{}</h3>\n<figure class=\"kept\">{}</figure>\n<p class=\"hint\">{}</p>\n"
         "</section>\n",
-        escapeHtml(title), drawBars(plot, label), escapeHtml(captionOf(plot)));
+        escapeHtml(title), drawBars(plot, label), escapeHtml(essentialsInWords(plot)));
   constexpr std::size_t drawnTimes = 200;
   const bool isSpread = !foremost.limit && plot.isThin();
   Plot shown = thinned(isSpread ? aroundMiddle(plot) : plot, drawnTimes);
@@ -201,7 +191,7 @@ std::string plotOfForemost(const Results& results, const Foremost& foremost) {
       "<figure data-view=\"{1}\">{6}</figure>\n</div>\n<p class=\"hint\">{7}</p>\n</section>\n",
       foremost.output, view, layers, escapeHtml(title),
       isSpread ? escapeHtml(": spread around " + plot.middleName()) : std::string(),
-      escapeHtml("Interactive plot of " + title), drawPlot(shown, label), escapeHtml(captionOf(plot)),
+      escapeHtml("Interactive plot of " + title), drawPlot(shown, label), escapeHtml(essentialsInWords(plot)),
       fmt::join(limits, " "));
 }
 
@@ -272,6 +262,16 @@ std::string ranking(const Results& results, std::size_t output) {
   return html + "</ol>\n</section>\n";
 }
 
+/// All quantities, where they are few and their shares are not known.
+std::string namesUntold(const Results& results) {
+  constexpr std::size_t few = 5;
+  if (results.uncertain.size() > few) return {};
+  std::vector<std::string> names;
+  for (const UncertainInfo& quantity : results.uncertain)
+    names.push_back(quantity.name + (variesInTime(quantity) ? " (varies in time)" : ""));
+  return fmt::format("{}: their shares are not told apart", fmt::join(names, ", "));
+}
+
 std::string tone(const Results& results, const Verdict& verdict) {
   if (verdict.word == Agreement::outside || verdict.word == Agreement::unresolved)
     return std::string(wordOf(verdict.word));
@@ -299,7 +299,7 @@ std::string shareOfSpread(const Results& results, std::size_t output, std::size_
 std::string leadingCauses(const Results& results, std::size_t output, double time) {
   if (results.uncertain.size() == 1) return results.uncertain.front().name + ", all that is uncertain";
   const SensitivityResult& s = results.sensitivity;
-  if (!s.present || s.total.lower.empty()) return {};
+  if (!s.present || s.total.lower.empty()) return namesUntold(results);
   std::vector<LeadingCause> leading;
   double nearest = INFINITY;
   for (std::size_t i = 0; i < s.time.size(); ++i) {
@@ -314,8 +314,18 @@ std::string leadingCauses(const Results& results, std::size_t output, double tim
   std::erase_if(leading, [](const LeadingCause& cause) { return cause.size < least; });
   leading.resize(std::min(most, leading.size()));
   std::vector<std::string> parts;
-  for (const LeadingCause& cause : leading) parts.push_back(cause.name + " " + cause.share);
+  for (const LeadingCause& cause : leading)
+    parts.push_back(fmt::format("{} ({}{})", cause.name, cause.share, parts.empty() ? " of the spread" : ""));
   return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string essentialsInWords(const Plot& plot) {
+  std::vector<std::string_view> said;
+  for (const Essential& one : essential)
+    if (!one.words.empty() && has(plot, one.layer)) said.push_back(one.words);
+  std::string words = fmt::format("{}", fmt::join(said, "; "));
+  if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  return words + (words.empty() ? "" : ".");
 }
 
 Plot essentialPlot(const Results& results, std::size_t output, std::optional<std::size_t> requirement) {

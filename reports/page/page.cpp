@@ -111,6 +111,13 @@ std::string failingText(const Results& results, std::size_t failing) {
   return all == 1 ? verb + when : fmt::format("{} of {} {}{}", failing, all, verb, when);
 }
 
+/// "400 simulated and 105 extreme cases"
+std::string simulatedText(const StochasticResult& of) {
+  const std::int64_t drawn = std::min(of.integrated, of.samples), extreme = of.integrated - drawn;
+  return extreme == 0 ? countText(drawn, "simulated case")
+                      : fmt::format("{} simulated and {}", drawn, countText(extreme, "extreme case"));
+}
+
 std::string chipsOf(const Report& report) {
   const Results& results = report.results;
   std::string html;
@@ -131,9 +138,10 @@ std::string chipsOf(const Report& report) {
     html += "<a class=\"chip none\" href=\"#asked\">no requirement is stated</a> ";
   }
   if (report.verdict.gap != Finding::Gap::noAnswers)
-    html += fmt::format("<a class=\"chip {0}\" href=\"#verdict\">self-check: {1}</a>", wordOf(report.verdict.word),
+    html += fmt::format("<a class=\"chip {0}\" href=\"#verdict\">self-check of the computation: {1}</a>",
+                        wordOf(report.verdict.word),
                         report.verdict.word == Agreement::inside && results.stochastic.integrated > 0
-                            ? fmt::format("all {} samples within what is guaranteed", results.stochastic.integrated)
+                            ? fmt::format("all {} within what is guaranteed", simulatedText(results.stochastic))
                             : std::string(wordOf(report.verdict.word)));
   return html;
 }

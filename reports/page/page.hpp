@@ -65,6 +65,9 @@ std::string shareOfSpread(const Results& results, std::size_t output, std::size_
 /// The output that is drawn first.
 std::size_t foremostOutput(const Results& results);
 
+/// What an essential plot shows, in words, so that it needs no key: "Grey: the ends between which it lies …; dashed
+/// red: the limit."
+std::string essentialsInWords(const Plot& plot);
 /// Of an output what is known the best, a middle, and the limits of one requirement.
 Plot essentialPlot(const Results& results, std::size_t output, std::optional<std::size_t> requirement);
 

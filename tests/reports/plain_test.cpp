@@ -84,8 +84,10 @@ TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
   requirement.violationLower = requirement.violationUpper = -0.25;
   requirement.samples = 4096;
   requirement.violating = 3;
-  EXPECT_THAT(sentenceOf(results),
-              EndsWith(" In sample 17 it misses the limit by 0.25 rad at 0.5 s. 3 of 4096 simulated cases miss it."));
+  EXPECT_THAT(
+      sentenceOf(results),
+      EndsWith(" In one simulated case (sample 17) it misses the limit by 0.25 rad at 0.5 s. 3 of 4096 simulated "
+               "cases miss it at the output times."));
   requirement.violationSample = 4096;
   requirement.isViolatedBetween = true;
   EXPECT_THAT(sentenceOf(results),
@@ -108,7 +110,7 @@ TEST(ViolationFacts, AreWhatTheSentenceSays) {
   EXPECT_FALSE(violationFacts(results).front());
   RequirementResult& requirement = results.requirements.front();
   requirement.word = Decision::partly;
-  EXPECT_EQ(violationFacts(results).front()->what, "\u201ca\u201d does not stay above 1 m");
+  EXPECT_EQ(violationFacts(results).front()->what, "in some cases, \u201ca\u201d does not stay above 1 m");
   EXPECT_EQ(violationFacts(results).front()->likely, "");
   EXPECT_EQ(violationFacts(results).front()->missed, "");
   requirement.probabilityLower = 0.9227;
@@ -120,23 +122,24 @@ TEST(ViolationFacts, AreWhatTheSentenceSays) {
   requirement.violationTime = 0.5;
   requirement.violationLower = requirement.violationUpper = -0.25;
   EXPECT_EQ(violationFacts(results).front()->likely,
-            "6.94 to 7.74 % of all cases, proved; 307 of 4096 simulated cases");
+            "6.94 to 7.74 % of all cases, proved; 307 of 4096 simulated cases at the output times");
   requirement.shareLower = 0.9163;
   requirement.shareUpper = 0.9331;
-  EXPECT_THAT(violationFacts(results).front()->likely,
-              EndsWith("; 307 of 4096 simulated cases, so 6.6 to 8.4 % of all with 95 % confidence"));
+  EXPECT_THAT(
+      violationFacts(results).front()->likely,
+      EndsWith("; 307 of 4096 simulated cases at the output times, so 6.6 to 8.4 % of all with 95 % confidence"));
   requirement.shareLower = requirement.shareUpper = RequirementResult::unknown;
-  EXPECT_EQ(violationFacts(results).front()->missed, "the limit by 0.25 rad at 0.5 s, in sample 17");
+  EXPECT_EQ(violationFacts(results).front()->missed, "the limit by 0.25 rad at 0.5 s, in one simulated case");
   requirement.probabilityUpper = 1;
   EXPECT_THAT(violationFacts(results).front()->likely, StartsWith("7.74 % at most of all cases, proved"));
   requirement.probabilityLower = 0;  // nothing is known
-  EXPECT_EQ(violationFacts(results).front()->likely, "307 of 4096 simulated cases");
+  EXPECT_EQ(violationFacts(results).front()->likely, "307 of 4096 simulated cases at the output times");
   requirement.probabilityUpper = 0.004;
   EXPECT_THAT(violationFacts(results).front()->likely,
               StartsWith("in all cases but for a probability of 0.0041 at most"));
   requirement.word = Decision::violated;
   requirement.violating = 4096;
-  EXPECT_EQ(violationFacts(results).front()->likely, "always; 4096 of 4096 simulated cases");
+  EXPECT_EQ(violationFacts(results).front()->likely, "always; 4096 of 4096 simulated cases at the output times");
 }
 
 /// Outward: a share of all cases that is told holds what is proved of it.
@@ -214,7 +217,7 @@ TEST(PlainRequirement, ClaimsNothingThatIsOpen) {
   EXPECT_EQ(
       sentenceOf(results),
       "It is not decided whether \u201ca\u201d stays above 1 m in every case: the run was interrupted. None of 10 "
-      "simulated cases was seen to miss it.");
+      "simulated cases was seen to miss it at the output times.");
 }
 
 TEST(PlainRequirement, SaysWhatIsSimulatedAndNotProved) {
@@ -230,7 +233,7 @@ TEST(PlainRequirement, SaysWhatIsSimulatedAndNotProved) {
   EXPECT_EQ(
       sentenceOf(results),
       "In simulation, \u201ca\u201d does not stay above 1 m: sample 17 misses the limit by 0.25 rad at 1.5 s. That is "
-      "not proved. 1400 of 4096 simulated cases miss it.");
+      "not proved. 1400 of 4096 simulated cases miss it at the output times.");
   EXPECT_EQ(summaryOf(results), "The requirement is violated in simulated cases, which is not proved.");
   results.requirements.push_back(requirement);
   results.requirements.back().isViolatedInSimulation = false;
@@ -325,7 +328,8 @@ TEST(RequirementWords, SayWithWhichTolerancesItHolds) {
   requirement.factor = 0;
   EXPECT_EQ(shrinkSentence(requirement), "");
   requirement.factor = 0.58399;
-  EXPECT_EQ(shrinkSentence(requirement), " It is met in every case if all tolerances shrink to 58.3 %.");
+  EXPECT_EQ(shrinkSentence(requirement),
+            " It is met in every case if all tolerances shrink to 58.3 % of what is stated.");
   requirement.word = Decision::met;
   EXPECT_EQ(shrinkSentence(requirement), "");
 }
@@ -366,15 +370,16 @@ TEST(RequirementWords, SayWhichToleranceWouldDoAlone) {
   EXPECT_EQ(aloneSentence(results, requirement), " No tolerance would do alone, however tight.");
   EXPECT_EQ(holdsText(results, requirement), "by no tolerance alone, however tight");
   requirement.factor = 0.58399;
-  EXPECT_EQ(holdsText(results, requirement), "if all tolerances shrink to 58.3 %; by none alone, however tight");
+  EXPECT_EQ(holdsText(results, requirement),
+            "if all tolerances shrink to 58.3 % of what is stated; by none alone, however tight");
   requirement.aloneLower = {0.25, 0.5, 0, 0};
   requirement.aloneUpper = {0.25, 0.75, 0, 1};
   EXPECT_EQ(aloneSentence(results, requirement),
             " One tolerance alone would do: damper at ± 2 % instead of +/- 4 %, or spring at ± 1 % instead of ± 4 %.");
-  EXPECT_EQ(
-      holdsText(results, requirement),
-      "if all tolerances shrink to 58.3 %, or damper alone shrinks from +/- 4 % to ± 2 %, or spring alone shrinks "
-      "from ± 4 % to ± 1 %");
+  EXPECT_EQ(holdsText(results, requirement),
+            "if all tolerances shrink to 58.3 % of what is stated, or damper alone shrinks from +/- 4 % to ± 2 %, or "
+            "spring alone shrinks "
+            "from ± 4 % to ± 1 %");
   requirement.factor = 0;
   EXPECT_THAT(holdsText(results, requirement), StartsWith("if damper alone shrinks from"));
   requirement.word = Decision::met;

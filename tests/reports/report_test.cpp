@@ -91,7 +91,8 @@ TEST(Report, ListsWhatIsFoundBesideTheAnswers) {
 TEST(Report, TellsACheckOfItselfFromRequirements) {
   const std::string page = renderReport(example::pendulum());
   EXPECT_THAT(page, AllOf(HasSubstr("<a class=\"chip none\" href=\"#asked\">no requirement is stated</a>"),
-                          HasSubstr("\">self-check: all "), HasSubstr("<b class=\"word\">self-check passed</b>")));
+                          HasSubstr("\">self-check of the computation: all "),
+                          HasSubstr("<b class=\"word\">self-check passed</b>")));
 }
 
 TEST(Report, HasAColumnForEachShape) {
@@ -625,10 +626,11 @@ TEST(Report, BeginsWithRequirements) {
   requirement.violationUpper = -0.001;
   const std::string page = renderReport(results);
   EXPECT_LT(page.find("class=\"requirements\""), page.find("class=\"verdict"));
-  EXPECT_THAT(page, AllOf(HasSubstr("&lt;b&gt;clearance"), HasSubstr("violated for some values"),
-                          HasSubstr("up to 98.7 % of what is stated"), HasSubstr("a probability of 0.0298 to 0.0316"),
-                          HasSubstr("(short by 0.002"),
-                          HasSubstr("<dt>It holds</dt><dd>if all tolerances shrink to 98.7&nbsp;%</dd>")));
+  EXPECT_THAT(page,
+              AllOf(HasSubstr("&lt;b&gt;clearance"), HasSubstr("violated for some values"),
+                    HasSubstr("up to 98.7 % of what is stated"), HasSubstr("a probability of 0.0298 to 0.0316"),
+                    HasSubstr("(short by 0.002"),
+                    HasSubstr("<dt>It holds</dt><dd>if all tolerances shrink to 98.7&nbsp;% of what is stated</dd>")));
   EXPECT_THAT(page, HasSubstr("<h2 class=\"lead\">The requirement can be violated within the stated tolerances.</h2>"));
 }
 
@@ -660,7 +662,7 @@ Results withMargins() {
     requirement.margin = first + r;
     requirement.word = r == 0 ? Decision::met : Decision::partly;
     requirement.violation.assign(results.uncertain.size(), std::nan(""));
-    results.margins.push_back({.output = first + r, .what = "a", .limitText = "1 m", .limited = 0, .limit = 1});
+    results.margins.push_back({.output = first + r, .what = "a", .limitText = "1 m", .limited = first + r});
   }
   return results;
 }
@@ -672,9 +674,8 @@ TEST(Report, ShowsRequirementsAsCardsTheWorstFirst) {
   const std::size_t speed = page.find("id=\"requirement-2\""), height = page.find("id=\"requirement-1\"");
   ASSERT_NE(height, std::string::npos);
   EXPECT_LT(speed, height);
-  EXPECT_THAT(page,
-              HasSubstr("aria-label=\"Margin of speed at " + when + " s: guaranteed (outline) -0.25 to 0.75 m\""));
-  EXPECT_THAT(page, HasSubstr("Margin of height at 0 s: guaranteed (outline) 2.00 to 3.00 m\""));
+  EXPECT_THAT(page, HasSubstr("aria-label=\"Bar of speed at " + when + " s: guaranteed (outline) -0.25 to 0.75 m\""));
+  EXPECT_THAT(page, HasSubstr("Bar of height at 0 s: guaranteed (outline) 2.00 to 3.00 m\""));
   const auto numberBehind = [&](const std::string& text, std::size_t from) {
     return std::stod(page.substr(page.find(text, from) + text.size()));
   };
@@ -683,8 +684,12 @@ TEST(Report, ShowsRequirementsAsCardsTheWorstFirst) {
   EXPECT_LT(left, zero);
   EXPECT_NEAR((zero - left) / numberBehind("width=\"", page.find("class=\"mark-guaranteed\" x=\"", speed)), 0.25, 0.01);
   EXPECT_GT(numberBehind("class=\"mark-guaranteed\" x=\"", height), numberBehind("class=\"zero\" d=\"M", height));
-  EXPECT_THAT(page, HasSubstr("<a href=\"#output-0\"><figure class=\"close\">"));
-  EXPECT_THAT(page, HasSubstr("id=\"output-0\""));
+  EXPECT_THAT(page, HasSubstr("<figure class=\"close\">"));
+  Results ofOutputs = results;
+  for (MarginInfo& margin : ofOutputs.margins) margin.limited = 0, margin.limit = 1;
+  const std::string linked = renderReport(ofOutputs);
+  EXPECT_THAT(linked, HasSubstr("<a href=\"#output-0\"><figure class=\"close\">"));
+  EXPECT_THAT(linked, HasSubstr("id=\"output-0\""));
 }
 
 /// Every link leads to a place on the page.

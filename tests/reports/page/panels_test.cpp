@@ -74,11 +74,41 @@ TEST(Cards, DrawMarginsAsTheirOutputsLie) {
   const double limit = number("zero", "d=\"M");
   EXPECT_NEAR(number("missed", "x=\""), limit, 0.1);
   EXPECT_NEAR(number("missed", "width=\""), 320 - limit, 0.1);
-  const double left = number("mark-guaranteed", "x=\""), wide = number("mark-guaranteed", "width=\"");
+  const double left = number("mark-guaranteed", "x=\"");
   results.margins[0].isAbove = true;
-  EXPECT_NEAR(number("zero", "d=\"M"), 320 - limit, 0.1);
+  EXPECT_NEAR(number("zero", "d=\"M"), limit, 0.1);
   EXPECT_EQ(number("missed", "x=\""), 0);
-  EXPECT_NEAR(number("mark-guaranteed", "x=\""), 320 - left - wide, 0.11);
+  EXPECT_NEAR(number("missed", "width=\""), limit, 0.1);
+  EXPECT_NEAR(number("mark-guaranteed", "x=\""), left, 0.1);
+}
+
+/// Of a requirement that names two, both, unless one is so far off that nothing else would be seen.
+TEST(Cards, DrawBothLimits) {
+  Results results = example::pendulum(61, 3);
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = "between";
+  requirement.statement = "always -3 rad < a < 3 rad";
+  requirement.word = Decision::met;
+  requirement.margin = 1;
+  requirement.margins = 2;
+  requirement.until = results.horizon;
+  requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  for (std::size_t i = 0; i < results.time.size(); ++i)
+    results.interval.at.lower(i, 0) = -2.5, results.interval.at.upper(i, 0) = 2.5;
+  const auto bar = [&](double low, double high) {
+    results.margins = {{1, "a", true, "LOW", "rad", true, 0, low, true},
+                       {2, "a", false, "HIGH", "rad", true, 0, high, true}};
+    const std::string page = renderReport(results);
+    const auto from = page.find("<svg class=\"drawing margin\"");
+    return page.substr(from, page.find("</figcaption>", from) - from);
+  };
+  const auto limits = [](const std::string& text) {
+    EXPECT_EQ(count(text, "class=\"missed\""), count(text, "class=\"zero\""));
+    EXPECT_THAT(text, HasSubstr("; limits LOW and HIGH"));
+    return count(text, "class=\"zero\"");
+  };
+  EXPECT_EQ(limits(bar(-3, 3)), 2u);
+  EXPECT_EQ(limits(bar(-3, 300)) + limits(bar(-300, 3)), 3u);
 }
 
 TEST(Panels, TellHowTheRequirementOfAnOutputStands) {
