@@ -129,7 +129,7 @@ ExitCode parseAndRunAsRank(int argc, char** argv) {
 /// Among others that were started with it some commands are done together, others by the first alone.
 ExitCode parseAndRunAmongOthers(int argc, char** argv, const StartedAs& started) {
   const std::string_view name = argc > 1 ? argv[1] : "";
-  if (name != "run" && name != "resume") return started.rank == 0 ? parseAndRun(argc, argv) : done;
+  if (name != "run" && name != "resume" && name != "sweep") return started.rank == 0 ? parseAndRun(argc, argv) : done;
 #ifdef GAMUT_MPI
   return parseAndRunAsRank(argc, argv);
 #else

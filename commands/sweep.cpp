@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "commands/kept_sweep.hpp"
 #include "commands/options.hpp"
 #include "commands/progress.hpp"
+#include "commands/ranks.hpp"
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
 #include "reports/sweep_page.hpp"
@@ -178,7 +180,7 @@ void nameOutputs(SweepArguments& arguments) {
         throw UsageError(output + ": cannot be written; it is the input");
 }
 
-ExitCode sweep(SweepArguments arguments) {
+SweepOptions optionsOf(const SweepArguments& arguments) {
   SweepOptions options;
   options.jobs = arguments.jobs;
   options.seed = arguments.seed;
@@ -186,23 +188,34 @@ ExitCode sweep(SweepArguments arguments) {
   options.timeLimit = arguments.timeLimit;
   if (arguments.memoryLimit) options.memoryLimit = 1e9 * *arguments.memoryLimit;
   options.cancelled = &interrupted();
-  SweepResults sweep = planned(arguments, options);
-  nameOutputs(arguments);
-  KeptSweep file(arguments.results, arguments.force, sweep);
-  if (file.isGoneOn() && !arguments.quiet)
-    fmt::print(stderr, "note: {} holds {} of {} points, with which this goes on\n", arguments.results,
-               sweep.points.size() - sweep.count(PointState::open), sweep.points.size());
-  OutputFile reportFile = reserve(arguments.report, arguments.study, arguments.force || file.isGoneOn());
+  options.communicator = ranks();
+  return options;
+}
+
+/// Throws what the ranks that share it cannot do.
+void runShared(SweepResults& sweep, const SweepOptions& options, const std::string& study) {
   noteInterrupts();
-  ProgressBar bar(!arguments.quiet);
-  options.progress = [&](double fraction) { bar.update("sweep", fraction); };
-  options.keep = [&](const SweepResults& found) {
-    file.keep(found);
-    if (file.problem().empty())
-      sayOnInterrupt(fmt::format("interrupted again; the points that had ended are in {}", arguments.results));
-  };
-  runSweep(sweep, options);
-  bar.wipe();
+  try {
+    runSweep(sweep, options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(study + ": " + error.what());
+  }
+}
+
+/// Of a rank that is not the first, which says and keeps nothing, nor reads anything.
+ExitCode takePartIn(const SweepArguments& arguments) {
+  onAllRanks([] {});
+  SweepResults none;
+  try {
+    runShared(none, optionsOf(arguments), arguments.study);
+  } catch (const Communicator::Parted&) {  // the first ends alone
+  }
+  return done;
+}
+
+/// Writes the page, and says what was found.
+ExitCode keepAndSay(const SweepResults& sweep, const KeptSweep& file, OutputFile& reportFile,
+                    const SweepArguments& arguments) {
   std::string report, problem = file.problem();
   if (problem.empty()) try {
       reportFile.write(renderSweep(sweep));
@@ -215,6 +228,34 @@ ExitCode sweep(SweepArguments arguments) {
   if (arguments.json) fmt::print("{}\n", json(sweep, file.problem().empty() ? arguments.results : "", report));
   if (!problem.empty()) throw WriteError(problem);
   return exitCodeOf(sweep);
+}
+
+ExitCode sweep(SweepArguments arguments) {
+  if (!isFirstRank()) return takePartIn(arguments);
+  SweepOptions options = optionsOf(arguments);
+  SweepResults sweep;
+  std::optional<KeptSweep> file;
+  std::unique_ptr<OutputFile> reportFile;
+  onAllRanks([&] {
+    sweep = planned(arguments, options);
+    nameOutputs(arguments);
+    file.emplace(arguments.results, arguments.force, sweep);
+    if (file->isGoneOn() && !arguments.quiet)
+      fmt::print(stderr, "note: {} holds {} of {} points, with which this goes on\n", arguments.results,
+                 sweep.points.size() - sweep.count(PointState::open), sweep.points.size());
+    // NOLINTNEXTLINE(modernize-make-unique): it cannot be moved
+    reportFile.reset(new OutputFile(reserve(arguments.report, arguments.study, arguments.force || file->isGoneOn())));
+  });
+  ProgressBar bar(!arguments.quiet);
+  options.progress = [&](double fraction) { bar.update("sweep", fraction); };
+  options.keep = [&](const SweepResults& found) {
+    file->keep(found);
+    if (file->problem().empty())
+      sayOnInterrupt(fmt::format("interrupted again; the points that had ended are in {}", arguments.results));
+  };
+  runShared(sweep, options, arguments.study);
+  bar.wipe();
+  return keepAndSay(sweep, *file, *reportFile, arguments);
 }
 
 }  // namespace

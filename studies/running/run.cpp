@@ -6,18 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "analyses/communicator.hpp"
 #include "analyses/consistency.hpp"
 #include "mechanics/assembly.hpp"
-#include "scalars/archive.hpp"
 #include "studies/assumed_rows.hpp"
-#include "studies/checkpoint_file.hpp"
 #include "studies/named_texts.hpp"
 #include "studies/printable.hpp"
+#include "studies/running/ranks_of_run.hpp"
 #include "studies/running/run_memory.hpp"
 #include "studies/running/units.hpp"
 #include "studies/told.hpp"
@@ -155,69 +153,6 @@ std::function<void(double)> Run::progressOf(const std::string& task) const {
   return [this, task](double fraction) { options.progress(task, fraction); };
 }
 
-namespace {
-
-/// With it a run ends, on all ranks.
-struct LastOfRanks {
-  Communicator* communicator;
-  ~LastOfRanks() {
-    if (communicator != nullptr) communicator->end();
-  }
-};
-
-/// Each rank's numbers are the same to the last bit where their programs, processors and machines are. Throws
-/// std::invalid_argument on all of them otherwise.
-void checkRanks(const Machine& machine, const RunOptions& options) {
-  if (options.communicator == nullptr) return;
-  const Study& study = machine.study;
-  std::string own =
-      fmt::format("{}\n{}\n{}\n{}\n{}", builtBy(), processor(), study.text, study.robot, inOneText(study.tables));
-  for (const Interval& component : machine.box) own += fmt::format(" {} {}", component.lower(), component.upper());
-  const Motion& motion = machine.equations();  // proofs that loops close take time, and may have ended otherwise
-  own += fmt::format("\n{} of {}, {} of {}, {}", motion.f.states(), motion.f.nodes().size(), motion.g.outputs(),
-                     motion.g.nodes().size(), fmt::join(machine.remainders, " "));
-  int other = -1;
-  SharedWork shared(options.communicator);
-  shared.exchange(
-      0, [&](Archive& all) { all(own); },
-      [&](int rank, Archive& all) {
-        std::string theirs;
-        all(theirs);
-        if (theirs != own && other < 0) other = rank;
-      });
-  shared.end();
-  if (other >= 0)
-    throw std::invalid_argument(
-        fmt::format("rank {} has another program, processor or study than rank {}, so that its numbers might differ in "
-                    "their last digits; expected the same on all ranks",
-                    other, shared.rank()));
-}
-
-/// CPU time is that of all ranks, memory that of the one which took most.
-void addCostsOfRanks(Communicator* communicator, Results& results) {
-  double cpu = results.cpu, memory = results.memory;
-  SharedWork shared(communicator);
-  shared.exchange(
-      0, [&](Archive& all) { all(cpu, memory); },
-      [&](int, Archive& all) {
-        all(cpu, memory);
-        results.cpu += cpu;
-        results.memory = std::max(results.memory, memory);
-      });
-  shared.end();
-}
-
-/// The first rank's: of memory others may have more or less.
-Limits agreedLimits(Limits limits, Communicator* communicator) {
-  if (communicator == nullptr) return limits;
-  for (double* limit :
-       {&limits.time, &limits.memory, &limits.enclosureTime, &limits.enclosureMemory, &limits.sampleTime})
-    *limit = communicator->agreed(*limit);
-  return limits;
-}
-
-}  // namespace
-
 Limits limitsOf(const Study& study, const RunOptions& options) {
   StatedLimits limits = study.limits;
   if (options.timeLimit) limits.time = options.timeLimit;
@@ -245,7 +180,7 @@ double memoryNeeded(const Study& study, const RunOptions& options) {
 }
 
 Results run(const Machine& machine, const RunOptions& options) {
-  const LastOfRanks last{options.communicator};
+  const LastOfRanks last(options.communicator);
   checkRanks(machine, options);
   Run run(machine, options, agreedLimits(limitsOf(machine.study, options), options.communicator));
   Results results = withOrigin(run);
@@ -284,7 +219,7 @@ Results run(const Machine& machine, const RunOptions& options) {
   if (isWhole && !failure.empty()) noteStop(run, failure, results);
   results.cpu = run.watch.spent();
   results.memory = peakMemory();
-  addCostsOfRanks(options.communicator, results);
+  addCostsOfRanks(options.communicator, results.cpu, results.memory);
   return results;
 }
 

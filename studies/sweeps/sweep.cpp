@@ -15,10 +15,13 @@
 #include <list>
 #include <memory>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "analyses/communicator.hpp"
+#include "scalars/archive.hpp"
 #include "studies/child_process.hpp"
 #include "studies/machine.hpp"
 #include "studies/named_texts.hpp"
@@ -26,6 +29,7 @@
 #include "studies/reading/swept_study.hpp"
 #include "studies/reading/table_reader.hpp"
 #include "studies/results/verdict.hpp"
+#include "studies/running/ranks_of_run.hpp"
 #include "studies/running/run.hpp"
 #include "studies/version.hpp"
 #include "studies/watch.hpp"
@@ -175,28 +179,63 @@ FoundPoint foundAt(const std::string& text, const SweepResults& sweep, std::size
 
 // ---- All points -----------------------------------------------------------------------------------------------------
 
+/// What another rank has to know of a sweep.
+void archiveTask(Archive& all, SweepResults& sweep, SweepOptions& options, std::deque<std::size_t>& waiting) {
+  std::size_t axes = sweep.plan.axes.size(), outputs = sweep.outputs.size();
+  std::vector<std::size_t> points(waiting.begin(), waiting.end());
+  all(sweep.studyText, sweep.robotText, sweep.tablesText, sweep.studyFile, sweep.plan.isGrid, axes, outputs, points,
+      options.seed, options.samples, options.timeLimit, options.memoryLimit);
+  sweep.plan.axes.resize(axes);
+  for (SweepAxis& axis : sweep.plan.axes) all(axis.name, axis.unit, axis.values, axis.ownUnit);
+  sweep.outputs.resize(outputs);
+  waiting.assign(points.begin(), points.end());
+}
+
+/// What a rank tells all others, again and again.
+struct NewsOfRank {
+  std::vector<std::string> found;  ///< packed
+  std::size_t free = 0;            ///< so many points may be given to it
+  std::string failure;             ///< it cannot go on
+
+  void archive(Archive& all) { all(found, free, failure); }
+};
+
+/// All ranks know which points wait, and give them out alike: one by one to those that have room, in their order.
 class PointsAtWork {
  public:
   PointsAtWork(SweepResults& sweep, const SweepOptions& options)
-      : sweep_(sweep),
-        options_(options),
-        study_(sweep.studyText, sweep.studyFile, elementTypes(),
-               FilesAtHand{sweep.robotText, namedTextsIn(sweep.tablesText)}) {
+      : sweep_(sweep), options_(options), shared_(options.communicator) {
     for (std::size_t i = 0; i < sweep.points.size(); ++i)
       if (sweep.points[i].state == PointState::open || sweep.points[i].state == PointState::failed)
         waiting_.push_back(i);
-    beside_ = static_cast<int>(std::clamp<std::size_t>(waiting_.size(), 1, static_cast<std::size_t>(options.jobs)));
-    threads_ = std::max(1, options.jobs / beside_);
+    const auto task = [this](Archive& all) { archiveTask(all, sweep_, options_, waiting_); };
+    const auto toOthers = [&](Archive& all) {
+      if (isFirst()) task(all);
+    };
+    shared_.exchange(0, toOthers, [&](int rank, Archive& all) {
+      if (rank == 0) task(all);
+    });
+    study_.emplace(sweep_.studyText, sweep_.studyFile, elementTypes(),
+                   FilesAtHand{sweep_.robotText, namedTextsIn(sweep_.tablesText)});
+    open_ = waiting_.size();
+    const std::size_t ranks = static_cast<std::size_t>(shared_.count());
+    const std::size_t each = (open_ + ranks - 1) / ranks;  // of a rank, at most, where all are as quick
+    beside_ = static_cast<int>(std::clamp<std::size_t>(each, 1, static_cast<std::size_t>(options_.jobs)));
+    threads_ = std::max(1, options_.jobs / beside_);
   }
 
+  /// Throws, on the first rank, what keeps one from going on; on the others Communicator::Parted where all are to stop.
   void go() {
-    while (!isCancelled() && !(waiting_.empty() && running_.empty())) {
-      while (!waiting_.empty() && running_.size() < static_cast<std::size_t>(beside_)) start();
-      wait();
+    meet();
+    while (open_ > 0 && !isOver()) {
+      look();
+      meet();
       keepInTime();
     }
     running_.clear();
-    if (options_.keep) options_.keep(sweep_);
+    shared_.end();
+    if (failure_) std::rethrow_exception(failure_);
+    if (!failureElsewhere_.empty() && isFirst()) throw std::runtime_error(failureElsewhere_);
   }
 
  private:
@@ -205,19 +244,70 @@ class PointsAtWork {
     std::unique_ptr<ChildProcess> process;
   };
 
-  bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
+  bool isFirst() const { return shared_.rank() == 0; }
+  bool isToEnd() const { return failure_ || (options_.cancelled != nullptr && *options_.cancelled); }
+  bool isOver() const { return shared_.count() > 1 ? shared_.isOver() : isToEnd(); }
 
-  void start() {
-    const std::size_t point = waiting_.front();
-    waiting_.pop_front();
-    const std::string text = study_.at(sweep_.plan, point);
+  /// Tells the others what there is to tell, hears them, and takes its part of what waits.
+  void meet() {
+    std::vector<NewsOfRank> all(static_cast<std::size_t>(shared_.count()));
+    NewsOfRank& own = all[static_cast<std::size_t>(shared_.rank())];
+    own = std::exchange(news_, {});
+    own.free = static_cast<std::size_t>(beside_) - running_.size();
+    if (isToEnd()) shared_.giveUp();
+    shared_.exchange(
+        1, [&](Archive& to) { to(own); }, [&](int rank, Archive& from) { from(all[static_cast<std::size_t>(rank)]); });
+    for (std::size_t rank = 0; rank < all.size(); ++rank) hear(rank, all[rank]);
+    if (!isOver()) giveOut(all);
+  }
+
+  void hear(std::size_t rank, const NewsOfRank& news) {
+    if (failureElsewhere_.empty() && !news.failure.empty())
+      failureElsewhere_ = fmt::format("rank {}: {}", rank, news.failure);
+    for (const std::string& told : news.found) {
+      --open_;
+      if (!isFirst()) continue;
+      const FoundPoint found = unpacked(told);
+      put(sweep_, found.point, found.numbers);
+      isChanged_ = true;
+      if (options_.progress)
+        options_.progress(1 - static_cast<double>(open_) / static_cast<double>(sweep_.points.size()));
+    }
+  }
+
+  void giveOut(std::vector<NewsOfRank>& all) {
+    for (bool isGiven = true; isGiven && !waiting_.empty();) {
+      isGiven = false;
+      for (std::size_t rank = 0; rank < all.size() && !waiting_.empty(); ++rank) {
+        if (all[rank].free == 0) continue;
+        --all[rank].free;
+        if (rank == static_cast<std::size_t>(shared_.rank())) given_.push_back(waiting_.front());
+        waiting_.pop_front();
+        isGiven = true;
+      }
+    }
+  }
+
+  /// At its own points. What goes wrong with the program itself is told first.
+  void look() {
+    try {
+      for (; !given_.empty(); given_.pop_front()) start(given_.front());
+      wait();
+    } catch (const std::exception& error) {
+      failure_ = std::current_exception();
+      news_.failure = error.what();
+    }
+  }
+
+  void start(std::size_t point) {
+    const std::string text = study_->at(sweep_.plan, point);
     const auto compute = [&] { return packed(foundAt(text, sweep_, point, options_, threads_, beside_)); };
     running_.push_back({point, std::make_unique<ChildProcess>(compute, ChildLimits{})});
   }
 
-  /// Until one says something, or for a tenth of a second.
+  /// Until one says something, or for a tenth of a second; where others wait too, for a hundredth.
   void wait() {
-    constexpr int often = 100;  // ms
+    const int often = shared_.count() > 1 ? 10 : 100;  // ms
     std::vector<pollfd> pipes;
     for (const Running& running : running_) pipes.push_back({running.process->pipe(), POLLIN, 0});
     if (::poll(pipes.data(), pipes.size(), often) <= 0) return;
@@ -240,20 +330,15 @@ class PointsAtWork {
   void take(Running& running) {
     const int signal = running.process->signal();
     if (running.process->isWhole()) {
-      const FoundPoint found = unpacked(running.process->text());
-      put(sweep_, found.point, found.numbers);
-    } else {
-      SweepPoint point;
-      point.number = static_cast<std::int64_t>(running.point);
-      point.state = PointState::failed;
-      point.why = signal == 0 ? "its process ended without a word"
-                              : fmt::format("its process was ended by signal {} ({})", signal, ::strsignal(signal));
-      put(sweep_, point, {});
+      news_.found.push_back(running.process->text());
+      return;
     }
-    isChanged_ = true;
-    if (options_.progress)
-      options_.progress(1 - static_cast<double>(waiting_.size() + running_.size() - 1) /
-                                static_cast<double>(sweep_.points.size()));
+    FoundPoint none;
+    none.point.number = static_cast<std::int64_t>(running.point);
+    none.point.state = PointState::failed;
+    none.point.why = signal == 0 ? "its process ended without a word"
+                                 : fmt::format("its process was ended by signal {} ({})", signal, ::strsignal(signal));
+    news_.found.push_back(packed(none));
   }
 
   /// So that writing takes a fiftieth of the time at most.
@@ -269,10 +354,15 @@ class PointsAtWork {
   }
 
   SweepResults& sweep_;
-  const SweepOptions& options_;
-  const SweptStudy study_;
-  std::deque<std::size_t> waiting_;
+  SweepOptions options_;
+  SharedWork shared_;
+  std::optional<SweptStudy> study_;
+  std::deque<std::size_t> waiting_, given_;  // of all ranks; of this one
+  std::size_t open_ = 0;                     // of all ranks, waiting or running
   std::list<Running> running_;
+  NewsOfRank news_;
+  std::exception_ptr failure_;
+  std::string failureElsewhere_;
   int beside_ = 1, threads_ = 1;
   bool isChanged_ = false;
   SteadyClock::time_point kept_ = SteadyClock::now();
@@ -328,6 +418,11 @@ std::string studyTextAt(const SweepResults& sweep, std::size_t point) {
       .at(sweep.plan, point);
 }
 
-void runSweep(SweepResults& sweep, const SweepOptions& options) { PointsAtWork(sweep, options).go(); }
+void runSweep(SweepResults& sweep, const SweepOptions& options) {
+  const LastOfRanks last(options.communicator);
+  checkRanks(options.communicator, "", "program or processor");
+  PointsAtWork(sweep, options).go();
+  if (options.keep) options.keep(sweep);
+}
 
 }  // namespace gamut

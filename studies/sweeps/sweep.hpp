@@ -13,6 +13,8 @@
 
 namespace gamut {
 
+class Communicator;
+
 struct SweepOptions {
   int jobs = 1;  ///< points at a time; where there are fewer points, the threads of each
   std::optional<std::uint64_t> seed = {};
@@ -26,6 +28,7 @@ struct SweepOptions {
   std::function<void(const SweepResults& sweep)> keep = {};
   double betweenKeeps = 2;                       ///< s
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside: points that are not finished stay open
+  Communicator* communicator = nullptr;          ///< of the ranks that share the points, made by this thread
 };
 
 /// A sweep of which nothing was run: what is asked, with the texts of all files that the study names. Throws Refusal as
@@ -44,7 +47,9 @@ SweepPlan sweepPointsIn(const std::string& path);
 std::string studyTextAt(const SweepResults& sweep, std::size_t point);
 
 /// Runs all points that are open or failed. In whatever order they end, the results are the same. Not for a process in
-/// which other threads may hold a lock that a run needs.
+/// which other threads may hold a lock that a run needs. Of ranks the first has the sweep and all of the options; the
+/// others hear it from that one, have their own `jobs` and `cancelled`, and may be told of no part in what follows
+/// (Communicator::Parted). Throws std::invalid_argument on all where one has another program or processor.
 void runSweep(SweepResults& sweep, const SweepOptions& options);
 
 }  // namespace gamut

@@ -4,7 +4,6 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "tests/commands/program.hpp"
 #include "tests/commands/started_program.hpp"
 #include "tests/studies/sample_study.hpp"
+#include "tests/studies/sweep_bits.hpp"
 
 namespace gamut::sweep_command_test {
 
@@ -33,16 +33,6 @@ class SweepCommand : public FromOutside {
   static constexpr const char* over = " --over rod.length=0.4:0.6:3 --over 'start=20 deg:40 deg:2' --quiet";
 
   SweepResults swept(const std::string& name = "s.sweep.h5") const { return readSweep(folder_.path(name)); }
-
-  /// All numbers but costs.
-  static std::vector<std::uint64_t> bitsOf(const SweepResults& sweep) {
-    std::vector<std::uint64_t> bits;
-    for (const std::vector<Grid>* grids : {&sweep.ofRequirements, &sweep.ofOutputs})
-      for (const Grid& grid : *grids)
-        for (const double x : grid.data) bits.push_back(std::bit_cast<std::uint64_t>(x));
-    for (const SweepPoint& point : sweep.points) bits.push_back(static_cast<std::uint64_t>(point.state));
-    return bits;
-  }
 };
 
 TEST_F(SweepCommand, WritesOneFileAndOnePage) {
