@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <new>
@@ -129,7 +130,8 @@ ExitCode parseAndRunAsRank(int argc, char** argv) {
 /// Among others that were started with it some commands are done together, others by the first alone.
 ExitCode parseAndRunAmongOthers(int argc, char** argv, const StartedAs& started) {
   const std::string_view name = argc > 1 ? argv[1] : "";
-  if (name != "run" && name != "resume" && name != "sweep") return started.rank == 0 ? parseAndRun(argc, argv) : done;
+  constexpr std::array together{"run", "resume", "extend", "sweep"};
+  if (std::ranges::find(together, name) == together.end()) return started.rank == 0 ? parseAndRun(argc, argv) : done;
 #ifdef GAMUT_MPI
   return parseAndRunAsRank(argc, argv);
 #else

@@ -1,25 +1,25 @@
 // gamut extend: more samples for results that are there. What was proved stays; nothing is written unless all samples
 // that there were have come again.
-#include <fmt/format.h>
-
-#include <cstdio>
+#include <filesystem>
 #include <memory>
-#include <stdexcept>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "commands/files.hpp"
-#include "commands/interrupts.hpp"
 #include "commands/options.hpp"
 #include "commands/preparation.hpp"
-#include "commands/progress.hpp"
+#include "commands/ranks.hpp"
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
+#include "studies/checkpoint_file.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/running/extension.hpp"
-#include "studies/version.hpp"
 
 namespace gamut::commands {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct ExtendArguments : RunArguments {
   std::string input, results, report;
@@ -38,40 +38,53 @@ OutputFile reserveReport(const ExtendArguments& arguments) {
                  arguments.force || (arguments.results.empty() && arguments.report.empty()));
 }
 
-void noteChanges(const ExtendArguments& arguments, const Results& before, const Extension& extension) {
-  if (extension.changed > 0 && !arguments.quiet)
-    fmt::print(stderr,
-               "note: of {} samples whose motions are kept, {} are not the same bit for bit; they were taken by {}, "
-               "this is Gamut {} on {}\n",
-               extension.met, extension.changed, takerOfSamples(before), version(), hostName());
+CheckpointPlan planOf(const Machine& machine, const Results& before, const RunOptions& options,
+                      const ExtendArguments& arguments, const std::string& report) {
+  CheckpointPlan plan = gamut::planOf(machine.study, limitsOf(machine.study, options), arguments, report);
+  plan.seed = static_cast<std::uint64_t>(before.seed);
+  plan.samples = arguments.samples;
+  plan.isReplaced = arguments.force || arguments.results.empty();
+  plan.extended = fs::absolute(arguments.input).lexically_normal().string();
+  plan.extendedDigest = digestOf(before);
+  return plan;
 }
 
-ExitCode extend(const ExtendArguments& arguments) {
-  const Results before = readResults(arguments.input);
-  const Machine machine = prepared(studyOf(before, arguments.input), arguments.quiet, arguments.timeLimit);
-  RunOptions options = runOptions(arguments);
+/// What every rank does before they go on together.
+std::optional<Machine> prepare(const ExtendArguments& arguments, Results& before, RunOptions& options) {
+  before = readResults(arguments.input);
+  std::optional<Machine> machine(std::in_place,
+                                 prepared(studyOf(before, arguments.input), arguments.quiet, arguments.timeLimit));
+  options = runOptions(arguments);
   options.samples = arguments.samples;
-  checkMemory(machine.study, options);
-  OutputFile resultsFile = reserveResults(arguments);
-  OutputFile reportFile = reserveReport(arguments);
-  noteInterrupts();
-  ProgressBar bar(!arguments.quiet);
-  options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
-  Extension extension;
-  try {
-    extension = gamut::extend(machine, before, options);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(arguments.input + ": " + error.what());
+  options.communicator = ranks();
+  checkMemory(machine->study, options);
+  return machine;
+}
+
+ExitCode extend(ExtendArguments arguments) {
+  arguments.quiet = arguments.quiet || !isFirstRank();
+  Results before;
+  RunOptions options;
+  std::optional<Machine> machine;
+  onAllRanks([&] { machine = prepare(arguments, before, options); });
+  if (!isFirstRank()) {
+    onAllRanks([] {});
+    return takePart(*machine, std::move(options), &before);
   }
-  bar.wipe();
-  if (!extension.isMore) {
-    fmt::print(stderr, "gamut: {}: {}, before the {} samples that it holds had come again; nothing was written\n",
-               arguments.input, whyEnded(extension.results), before.stochastic.integrated);
-    return endedEarly;
-  }
-  const ExitCode code = keepAndSay(extension.results, resultsFile, reportFile, arguments);
-  noteChanges(arguments, before, extension);
-  return code;
+  std::unique_ptr<OutputFile> resultsFile, reportFile;
+  std::optional<CheckpointFile> checkpoints;
+  onAllRanks([&] {
+    // NOLINTBEGIN(modernize-make-unique): files cannot be moved
+    resultsFile.reset(new OutputFile(reserveResults(arguments)));
+    reportFile.reset(new OutputFile(reserveReport(arguments)));
+    // NOLINTEND(modernize-make-unique)
+    refuseToForget(resultsFile->path(), arguments);
+    if (arguments.interval > 0)
+      checkpoints.emplace(checkpointOf(resultsFile->target()),
+                          planOf(*machine, before, options, arguments, reportFile->path()), sayNote);
+  });
+  return extendAndKeep(*machine, before, arguments.input, std::move(options), checkpoints ? &*checkpoints : nullptr,
+                       *resultsFile, *reportFile, arguments);
 }
 
 }  // namespace
@@ -93,6 +106,7 @@ Action extend(CLI::App& command) {
                   "Report page; otherwise named like the results, and replaced where they are")
       ->type_name("REPORT.html");
   addRunOptions(command, *arguments);
+  addCheckpoint(command, *arguments);
   command.footer(
       "Enclosures and all else that was proved stay as they are; all samples, those that there are once more, are\n"
       "integrated and compared with it. Of the plans sobol, halton and random.\n\n" +

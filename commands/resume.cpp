@@ -15,6 +15,8 @@
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
 #include "studies/checkpoint_file.hpp"
+#include "studies/results/results_file.hpp"
+#include "studies/running/extension.hpp"
 #include "studies/running/run.hpp"
 
 namespace gamut::commands {
@@ -56,32 +58,50 @@ std::unique_ptr<CheckpointFile> checkpointsOf(const std::string& path) {
   }
 }
 
+/// What was to be done, on every rank alike.
+struct Resumed {
+  RunOptions options;
+  std::optional<Machine> machine;
+  std::optional<Results> before;  ///< to which samples come; else it is a run
+};
+
+/// The results of an extension, as they were when it began.
+Results resultsOfPlan(const CheckpointPlan& plan, const std::string& path) {
+  Results before = readResults(plan.extended);
+  if (digestOf(before) != plan.extendedDigest)
+    throw UsageError(fmt::format("{}: is not what it was when {} began; expected the results that are extended there",
+                                 plan.extended, path));
+  return before;
+}
+
 /// What every rank does before they go on together. Throws what there is to complain of.
-std::optional<Machine> prepare(ResumeArguments& arguments, CheckpointFile& checkpoints, RunOptions& options) {
+Resumed prepare(const ResumeArguments& arguments, CheckpointFile& checkpoints) {
   const CheckpointPlan& plan = checkpoints.plan();
-  const Study study = studyOfPlan(plan, checkpoints.path());
+  Resumed resumed;
+  RunOptions& options = resumed.options;
+  if (!plan.extended.empty()) resumed.before = resultsOfPlan(plan, checkpoints.path());
   options = runOptions(arguments);
   options.seed = plan.seed;
   options.samples = plan.samples;
   options.timeLimit = plan.timeLimit;
   options.memoryLimit = plan.memoryLimit;
   options.communicator = ranks();
-  return prepared(study, arguments.quiet, plan.timeLimit);
+  resumed.machine.emplace(prepared(studyOfPlan(plan, checkpoints.path()), arguments.quiet, plan.timeLimit));
+  return resumed;
 }
 
 /// Of a rank that is not the first: it remembers what that one does.
 ExitCode takePartIn(ResumeArguments arguments, const std::string& path) {
   std::unique_ptr<CheckpointFile> checkpoints;
-  std::optional<Machine> machine;
-  RunOptions options;
+  Resumed resumed;
   onAllRanks([&] {
     arguments.quiet = true;
     checkpoints = checkpointsOf(path);
     checkpoints->onlyRead();
-    machine = prepare(arguments, *checkpoints, options);
+    resumed = prepare(arguments, *checkpoints);
   });
-  options.checkpoints = checkpoints.get();
-  return takePart(*machine, std::move(options));
+  resumed.options.checkpoints = checkpoints.get();
+  return takePart(*resumed.machine, std::move(resumed.options), resumed.before ? &*resumed.before : nullptr);
 }
 
 ExitCode resume(ResumeArguments arguments) {
@@ -89,8 +109,7 @@ ExitCode resume(ResumeArguments arguments) {
   if (!isFirstRank()) return takePartIn(std::move(arguments), path);
   std::unique_ptr<OutputFile> resultsFile, reportFile;
   std::unique_ptr<CheckpointFile> checkpoints;
-  std::optional<Machine> machine;
-  RunOptions options;
+  Resumed resumed;
   onAllRanks([&] {
     if (!fs::exists(path)) refuseWithoutMemory(arguments.results, path);
     // Its right to write the results comes first: a run that is still there keeps it.
@@ -100,12 +119,16 @@ ExitCode resume(ResumeArguments arguments) {
     arguments.force = arguments.force || plan.isReplaced;
     if (!arguments.force && fs::exists(arguments.results))
       throw OutputRefused(arguments.results + ": exists already, since the run was killed; expected --force");
-    machine = prepare(arguments, *checkpoints, options);
+    resumed = prepare(arguments, *checkpoints);
     const std::string& report = arguments.report.empty() ? plan.report : arguments.report;
     // NOLINTNEXTLINE(modernize-make-unique): it cannot be moved
     reportFile.reset(new OutputFile(reserve(report, arguments.results, arguments.force)));
   });
-  return runAndKeep(*machine, std::move(options), checkpoints.get(), *resultsFile, *reportFile, arguments);
+  if (resumed.before)
+    return extendAndKeep(*resumed.machine, *resumed.before, checkpoints->plan().extended, std::move(resumed.options),
+                         checkpoints.get(), *resultsFile, *reportFile, arguments);
+  return runAndKeep(*resumed.machine, std::move(resumed.options), checkpoints.get(), *resultsFile, *reportFile,
+                    arguments);
 }
 
 }  // namespace

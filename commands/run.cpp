@@ -2,7 +2,6 @@
 // work; both files are ours from then on.
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,19 +14,15 @@
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
 #include "studies/checkpoint_file.hpp"
-#include "studies/named_texts.hpp"
 #include "studies/running/run.hpp"
 
 namespace gamut::commands {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct RunCommandArguments : RunArguments {
   std::string study, results, report;
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> samples;
-  double interval = 600;  // s between checkpoints; 0: none
 };
 
 void nameOutputs(RunCommandArguments& arguments) {
@@ -36,30 +31,10 @@ void nameOutputs(RunCommandArguments& arguments) {
 }
 
 CheckpointPlan planOf(const Study& study, const RunOptions& options, const RunCommandArguments& arguments) {
-  const Limits limits = limitsOf(study, options);
-  CheckpointPlan plan;
-  plan.studyText = study.text;
-  plan.robotText = study.robot;
-  plan.tablesText = inOneText(study.tables);
-  plan.studyFile = study.file;
+  CheckpointPlan plan = gamut::planOf(study, limitsOf(study, options), arguments, arguments.report);
   plan.seed = options.seed.value_or(study.ensemble.seed);
   plan.samples = options.samples.value_or(study.ensemble.samples);
-  plan.timeLimit = limits.time;
-  plan.memoryLimit = limits.memory;
-  plan.report = fs::absolute(arguments.report).lexically_normal().string();
-  plan.isReplaced = arguments.force;
-  plan.interval = arguments.interval;
   return plan;
-}
-
-/// What a run before this one would go on with is not lost unasked.
-void refuseToForget(const RunCommandArguments& arguments) {
-  const std::string path = checkpointOf(arguments.results);
-  if (!arguments.force && fs::exists(path))
-    throw OutputRefused(
-        fmt::format("{}: is of a run that was killed; expected gamut resume {}, another name, or "
-                    "--force",
-                    path, shellQuoted(arguments.results)));
 }
 
 /// What every rank does before they run it together: reads the study, and sees whether it can be.
@@ -95,7 +70,7 @@ ExitCode run(RunCommandArguments arguments) {
     resultsFile.reset(new OutputFile(reserve(arguments.results, arguments.study, arguments.force)));
     reportFile.reset(new OutputFile(reserve(arguments.report, arguments.study, arguments.force)));
     // NOLINTEND(modernize-make-unique)
-    refuseToForget(arguments);
+    refuseToForget(arguments.results, arguments);
     if (arguments.interval > 0)
       checkpoints.emplace(checkpointOf(resultsFile->target()), planOf(machine.study, options, arguments), sayNote);
   });
@@ -118,12 +93,7 @@ Action run(CLI::App& command) {
       ->type_name("REPORT.html");
   addPlanOptions(command, arguments->seed, arguments->samples);
   addRunOptions(command, *arguments);
-  command
-      .add_option("--checkpoint", arguments->interval,
-                  "How often a long run notes how far it is, in RESULTS.h5.checkpoint, so that `gamut resume` goes on "
-                  "where it was killed; s, \"10 min\" (otherwise that) or \"2 h\"; off: never")
-      ->transform(timeOrOff("time above 0, or off", "30, \"10 min\" or \"2 h\""))
-      ->type_name("SECONDS");
+  addCheckpoint(command, *arguments);
   command.footer(exitCodesText);
   return [arguments] { return run(*arguments); };
 }

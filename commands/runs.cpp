@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -25,12 +26,17 @@
 #include "reports/summary.hpp"
 #include "reports/words.hpp"
 #include "studies/checkpoint_file.hpp"
+#include "studies/named_texts.hpp"
 #include "studies/printable.hpp"
 #include "studies/results/results_file.hpp"
+#include "studies/running/extension.hpp"
+#include "studies/version.hpp"
 #include "studies/watch.hpp"
 
 namespace gamut {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// For people who may not read it any more.
 void sayAside(const std::string& line) { std::fputs((printable(line) + "\n").c_str(), stderr); }
@@ -155,6 +161,39 @@ void checkMemory(const Study& study, const RunOptions& options) {
                     std::ceil(needed / 1e6) / 1e3));
 }
 
+void addCheckpoint(CLI::App& command, RunArguments& arguments) {
+  command
+      .add_option("--checkpoint", arguments.interval,
+                  "How often a long run notes how far it is, in RESULTS.h5.checkpoint, so that `gamut resume` goes on "
+                  "where it was killed; s, \"10 min\" (otherwise that) or \"2 h\"; off: never")
+      ->transform(timeOrOff("time above 0, or off", "30, \"10 min\" or \"2 h\""))
+      ->type_name("SECONDS");
+}
+
+CheckpointPlan planOf(const Study& study, const Limits& limits, const RunArguments& arguments,
+                      const std::string& report) {
+  CheckpointPlan plan;
+  plan.studyText = study.text;
+  plan.robotText = study.robot;
+  plan.tablesText = inOneText(study.tables);
+  plan.studyFile = study.file;
+  plan.timeLimit = limits.time;
+  plan.memoryLimit = limits.memory;
+  plan.report = fs::absolute(report).lexically_normal().string();
+  plan.isReplaced = arguments.force;
+  plan.interval = arguments.interval;
+  return plan;
+}
+
+void refuseToForget(const std::string& results, const RunArguments& arguments) {
+  const std::string path = checkpointOf(results);
+  if (!arguments.force && fs::exists(path))
+    throw OutputRefused(
+        fmt::format("{}: is of a run that was killed; expected gamut resume {}, another name, or "
+                    "--force",
+                    path, shellQuoted(results)));
+}
+
 ExitCode runAndKeep(const Machine& machine, RunOptions options, CheckpointFile* checkpoints, OutputFile& resultsFile,
                     OutputFile& reportFile, const RunArguments& arguments) {
   options.checkpoints = checkpoints;
@@ -173,11 +212,53 @@ ExitCode runAndKeep(const Machine& machine, RunOptions options, CheckpointFile* 
   return code;
 }
 
-ExitCode takePart(const Machine& machine, RunOptions options) {
+namespace {
+
+/// Of samples that are not the same, bit for bit, when they come again.
+void noteChanges(const RunArguments& arguments, const Results& before, const Extension& extension) {
+  if (extension.changed > 0 && !arguments.quiet)
+    sayNote(
+        fmt::format("of {} samples whose motions are kept, {} are not the same bit for bit; they were taken by {}, "
+                    "this is Gamut {} on {}",
+                    extension.met, extension.changed, takerOfSamples(before), version(), hostName()));
+}
+
+}  // namespace
+
+ExitCode extendAndKeep(const Machine& machine, const Results& before, const std::string& input, RunOptions options,
+                       CheckpointFile* checkpoints, OutputFile& resultsFile, OutputFile& reportFile,
+                       const RunArguments& arguments) {
+  options.checkpoints = checkpoints;
+  noteInterrupts();
+  ProgressBar bar(!arguments.quiet);
+  options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
+  Extension extension;
+  try {
+    extension = gamut::extend(machine, before, options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(input + ": " + error.what());
+  }
+  bar.wipe();
+  ExitCode code = endedEarly;
+  if (extension.isMore) {
+    code = keepAndSay(extension.results, resultsFile, reportFile, arguments);
+    noteChanges(arguments, before, extension);
+  } else {
+    fmt::print(stderr, "gamut: {}: {}, before the {} samples that it holds had come again; nothing was written\n",
+               input, whyEnded(extension.results), before.stochastic.integrated);
+  }
+  if (checkpoints != nullptr) checkpoints->remove();
+  return code;
+}
+
+ExitCode takePart(const Machine& machine, RunOptions options, const Results* before) {
   noteInterrupts();
   options.overdue = {};
   try {
-    gamut::run(machine, options);
+    if (before != nullptr)
+      gamut::extend(machine, *before, options);
+    else
+      gamut::run(machine, options);
   } catch (const Communicator::Parted&) {  // the first goes on alone
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());

@@ -5,20 +5,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "commands/exit_codes.hpp"
 #include "studies/atomic_file.hpp"
+#include "studies/checkpoint_file.hpp"
 #include "studies/running/run.hpp"
 
 namespace gamut {
-
-class CheckpointFile;
 
 struct RunArguments {
   RunArguments();
 
   int jobs;                                      ///< as many as the machine has
   std::optional<double> timeLimit, memoryLimit;  ///< s of CPU; GB
+  double interval = 600;                         ///< s between checkpoints; 0: none
   bool json = false, quiet = false, verbose = false, force = false;
 };
 
@@ -45,8 +46,21 @@ void checkMemory(const Study& study, const RunOptions& options);
 ExitCode runAndKeep(const Machine& machine, RunOptions options, CheckpointFile* checkpoints, OutputFile& resultsFile,
                     OutputFile& reportFile, const RunArguments& arguments);
 
-/// Of a rank that is not the first, which says and keeps nothing.
-ExitCode takePart(const Machine& machine, RunOptions options);
+/// Likewise brings more samples to results, those of `input`.
+ExitCode extendAndKeep(const Machine& machine, const Results& before, const std::string& input, RunOptions options,
+                       CheckpointFile* checkpoints, OutputFile& resultsFile, OutputFile& reportFile,
+                       const RunArguments& arguments);
+
+/// Of a rank that is not the first, which says and keeps nothing. `before`: results to which samples come; null: it is
+/// a run.
+ExitCode takePart(const Machine& machine, RunOptions options, const Results* before = nullptr);
+
+/// What of the plan of a run, or of an extension, does not depend on which of both it is.
+CheckpointPlan planOf(const Study& study, const Limits& limits, const RunArguments& arguments,
+                      const std::string& report);
+/// What one before this would go on with is not lost unasked.
+void refuseToForget(const std::string& results, const RunArguments& arguments);
+void addCheckpoint(CLI::App& command, RunArguments& arguments);
 
 /// Writes the results, then draws the page, and says what was found, as was asked for, and where it is. Throws
 /// WriteError if one of both could not be written; what was found has been told then.

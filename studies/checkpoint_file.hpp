@@ -29,6 +29,8 @@ struct CheckpointPlan {
   std::string report;                     ///< where its page was to be
   bool isReplaced = false;                ///< what is at the names of results and page
   double interval = 0;                    ///< s
+  std::string extended;                   ///< results to which samples come; empty: none, it is a run
+  std::uint64_t extendedDigest = 0;       ///< of these (digestOf)
 
   void archive(Archive& all);
 };

@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "analyses/samples/sampling.hpp"
+#include "scalars/archive.hpp"
 #include "studies/printable.hpp"
+#include "studies/running/ranks_of_run.hpp"
+#include "studies/running/run_memory.hpp"
 #include "studies/running/sampled_study.hpp"
 #include "studies/running/units.hpp"
 #include "studies/version.hpp"
@@ -118,11 +123,24 @@ void noteExtension(const Limits& limits, std::int64_t before, Results& results) 
 
 }  // namespace
 
+std::uint64_t digestOf(const Results& results) {
+  Results copy = results;  // what is written may be read into the same place
+  std::uint64_t digest = 0;
+  Archive all = Archive::writing([&](const void* bytes, std::size_t size) {
+    const std::string_view part(static_cast<const char*>(bytes), size);
+    digest = (digest ^ std::hash<std::string_view>()(part)) * 0x9e3779b97f4a7c15;
+  });
+  all(copy);
+  return digest;
+}
+
 Extension extend(const Machine& machine, const Results& former, const RunOptions& options) {
+  const LastOfRanks last(options.communicator);
+  checkRanks(machine, options, options.communicator != nullptr ? fmt::format("{}", digestOf(former)) : "");
   const Study& study = machine.study;
   const std::size_t count = checkedSamples(study, former, options);
   checkValues(study, former, samplingOf(study, former, count));
-  Limits limits = limitsOf(study, options);
+  Limits limits = agreedLimits(limitsOf(study, options), options.communicator);
   limits.sampleTime = former.limits.sampleTime;
   Run run(machine, options, limits);
   Extension extension;
@@ -134,18 +152,22 @@ Extension extend(const Machine& machine, const Results& former, const RunOptions
   samples.motion = withSwitchingOf(former, std::move(samples.motion));
   Enclosure enclosure;
   enclosure.reachedTimes = enclosedTimes(former);
+  ModelMasses masses = massesOf(machine);
   forgetSamples(results, count);
-  takeFirstSamples(run, samples, results);
-  takeOtherSamples(run, enclosure, samples, results);
-  countRequirements(study, results);
-  estimateRequirements(run, enclosure.reachedTimes, samples, results);
-  refuteRequirements(run, samples, results);
-  compareShares(study, samples, results);
+  RunMemory once(run, samples, enclosure, masses, results);
+  once([&] { takeFirstSamples(run, samples, results); });
+  once([&] { takeOtherSamples(run, enclosure, samples, results); });
+  once([&] { countRequirements(study, results); });
+  once([&] { estimateRequirements(run, enclosure.reachedTimes, samples, results); });
+  once([&] { refuteRequirements(run, samples, results); });
+  once([&] { compareShares(study, samples, results); });
   noteStop(run, "", results);
   compareAnswers(run, enclosure.reachedTimes, samples, results);
-  results.extensions.back().cpu = run.watch.spent();
-  results.cpu += run.watch.spent();
-  results.memory = std::max(results.memory, peakMemory());
+  double cpu = run.watch.spent(), memory = peakMemory();
+  addCostsOfRanks(options.communicator, cpu, memory);
+  results.extensions.back().cpu = cpu;
+  results.cpu += cpu;
+  results.memory = std::max(results.memory, memory);
   extension.isMore = results.stochastic.integrated >= former.stochastic.integrated;
   extension.met = samples.former->met();
   extension.changed = samples.former->changed();

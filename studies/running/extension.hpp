@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "studies/results/results.hpp"
 #include "studies/running/run.hpp"
@@ -18,7 +19,11 @@ struct Extension {
 /// Statistics need every sample, so these are integrated again too. Limits are those of the extension alone; seeds and
 /// time of a sample those of the results. `machine` is that of the results. Throws std::invalid_argument, saying why,
 /// where results hold no samples or as many already, by plans that put the first of more samples elsewhere, and for
-/// samples that would be others: another version has read the study otherwise, or moves it so.
+/// samples that would be others: another version has read the study otherwise, or moves it so. Goes on and is shared
+/// out as a run is (RunOptions::checkpoints, communicator).
 Extension extend(const Machine& machine, const Results& former, const RunOptions& options);
+
+/// Of all that they hold: whether two are the same.
+std::uint64_t digestOf(const Results& results);
 
 }  // namespace gamut

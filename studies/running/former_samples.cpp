@@ -9,6 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analyses/communicator.hpp"
+
 namespace gamut {
 namespace {
 
@@ -35,34 +37,53 @@ bool FormerSamples::hasSamePack(std::size_t number) const {
   return std::min(end, before_) == std::min(end, samples_);
 }
 
-void FormerSamples::meet(const SampleBlock& block, const std::vector<DisputedSample>& disputed) {
-  const std::size_t outputs = error_.outputs;
-  for (std::size_t i = 0; i < block.size(); ++i) {
-    const std::size_t number = block.first() + i;
-    if (block.hasWeight() && number >= before_) return;
-    const std::size_t former = block.hasWeight() ? number : number - samples_ + before_;
-    const auto signedFormer = static_cast<std::int64_t>(former);
-    const auto place = std::ranges::lower_bound(kept_.motionNumber, signedFormer);
-    if (place == kept_.motionNumber.end() || *place != signedFormer) continue;
-    const auto isIt = [&](const DisputedSample& sample) { return sample.number == static_cast<std::int64_t>(number); };
-    if (!hasSamePack(former) || settled_.contains(signedFormer) || std::ranges::any_of(disputed, isIt)) continue;
-    const auto row = static_cast<std::size_t>(place - kept_.motionNumber.begin());
-    ++met_;
-    bool isSame = true;
-    for (std::size_t cell = 0; cell < error_.data.size(); ++cell) {
-      const double was = kept_.motions[row * error_.data.size() + cell], is = block(i, cell / outputs, cell % outputs);
-      if (isSameNumber(was, is)) continue;
-      isSame = false;
-      constexpr double ulps = 4, errors = 100;
-      const double rounding = ulps * std::numeric_limits<double>::epsilon() * std::max(std::fabs(was), std::fabs(is));
-      if (std::fabs(is - was) > errors * (error_.data[cell] + rounding))  // what is not known is no reason
-        throw std::invalid_argument(fmt::format(
-            "sample {} is {:.9g} where it was {:.9g}, farther than errors of integration explain: its motion is "
-            "another one; expected results by this version of Gamut, or run the study again",
-            number, is, was));
-    }
-    changed_ += isSame ? 0 : 1;
+/// One of the motions that are here.
+void FormerSamples::meet(const SampleBlock& block, std::size_t i, const std::vector<DisputedSample>& disputed,
+                         Met& met) const {
+  const std::size_t number = block.first() + i, outputs = error_.outputs;
+  if (block.hasWeight() && number >= before_) return;
+  const std::size_t former = block.hasWeight() ? number : number - samples_ + before_;
+  const auto signedFormer = static_cast<std::int64_t>(former);
+  const auto place = std::ranges::lower_bound(kept_.motionNumber, signedFormer);
+  if (place == kept_.motionNumber.end() || *place != signedFormer) return;
+  const auto isIt = [&](const DisputedSample& sample) { return sample.number == static_cast<std::int64_t>(number); };
+  if (!hasSamePack(former) || settled_.contains(signedFormer) || std::ranges::any_of(disputed, isIt)) return;
+  const auto row = static_cast<std::size_t>(place - kept_.motionNumber.begin());
+  ++met.met;
+  bool isSame = true;
+  for (std::size_t cell = 0; cell < error_.data.size(); ++cell) {
+    const double was = kept_.motions[row * error_.data.size() + cell], is = block(i, cell / outputs, cell % outputs);
+    if (isSameNumber(was, is)) continue;
+    isSame = false;
+    constexpr double ulps = 4, errors = 100;
+    const double rounding = ulps * std::numeric_limits<double>::epsilon() * std::max(std::fabs(was), std::fabs(is));
+    if (met.fault.empty() && std::fabs(is - was) > errors * (error_.data[cell] + rounding))  // unknown is no reason
+      met.fault = fmt::format(
+          "sample {} is {:.9g} where it was {:.9g}, farther than errors of integration explain: its motion is "
+          "another one; expected results by this version of Gamut, or run the study again",
+          number, is, was);
   }
+  met.changed += isSame ? 0 : 1;
+}
+
+void FormerSamples::meet(const SampleBlock& block, const std::vector<DisputedSample>& disputed) {
+  Met all;
+  for (std::size_t i = 0; i < block.size(); ++i)
+    if (block.isHere(i / packWidth)) meet(block, i, disputed, all);
+  if (block.spread != nullptr) {
+    constexpr int met = 102;
+    Met own = all;
+    block.spread->exchange(
+        met, [&](Archive& to) { to(own.met, own.changed, own.fault); },
+        [&](int, Archive& from) {
+          Met theirs;
+          from(theirs.met, theirs.changed, theirs.fault);
+          all.met += theirs.met, all.changed += theirs.changed;
+          if (all.fault.empty()) all.fault = theirs.fault;
+        });
+  }
+  if (!all.fault.empty()) throw std::invalid_argument(all.fault);
+  met_ += all.met, changed_ += all.changed;
 }
 
 }  // namespace gamut

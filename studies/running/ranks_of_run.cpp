@@ -36,15 +36,15 @@ void checkRanks(Communicator* communicator, const std::string& own, const std::s
                     other, what, shared.rank()));
 }
 
-void checkRanks(const Machine& machine, const RunOptions& options) {
+void checkRanks(const Machine& machine, const RunOptions& options, const std::string& own) {
   if (options.communicator == nullptr) return;
   const Study& study = machine.study;
-  std::string own = fmt::format("{}\n{}\n{}", study.text, study.robot, inOneText(study.tables));
-  for (const Interval& component : machine.box) own += fmt::format(" {} {}", component.lower(), component.upper());
+  std::string all = fmt::format("{}\n{}\n{}\n{}", own, study.text, study.robot, inOneText(study.tables));
+  for (const Interval& component : machine.box) all += fmt::format(" {} {}", component.lower(), component.upper());
   const Motion& motion = machine.equations();  // proofs that loops close take time, and may have ended otherwise
-  own += fmt::format("\n{} of {}, {} of {}, {}", motion.f.states(), motion.f.nodes().size(), motion.g.outputs(),
+  all += fmt::format("\n{} of {}, {} of {}, {}", motion.f.states(), motion.f.nodes().size(), motion.g.outputs(),
                      motion.g.nodes().size(), fmt::join(machine.remainders, " "));
-  checkRanks(options.communicator, own, "program, processor or study");
+  checkRanks(options.communicator, all, "program, processor or study");
 }
 
 Limits agreedLimits(Limits limits, Communicator* communicator) {

@@ -22,8 +22,8 @@ struct LastOfRanks {
 /// std::invalid_argument on all of them unless they are the same on all; `what`: these, in words.
 void checkRanks(Communicator* communicator, const std::string& own, const std::string& what);
 
-/// Likewise with the machine, as it was read and assembled.
-void checkRanks(const Machine& machine, const RunOptions& options);
+/// Likewise with the machine, as it was read and assembled, and `own` of a rank.
+void checkRanks(const Machine& machine, const RunOptions& options, const std::string& own = "");
 
 /// The first rank's: of memory others may have more or less.
 Limits agreedLimits(Limits limits, Communicator* communicator);

@@ -64,6 +64,7 @@ void archiveSamples(Archive& all, const Run& run, SampledMotion& samples, Result
   bool isEnsemble = samples.ensemble.has_value();
   all(isEnsemble, samples.motion.switching.courses, samples.scales, samples.suspects);
   for (FirstOrder& margins : samples.worstMargins) all(margins);
+  if (samples.former) all(*samples.former);
   if (isEnsemble && !samples.ensemble) samples.ensemble.emplace(samples.motion, ensembleOptions(run, results));
   if (isEnsemble)
     all(*samples.ensemble);

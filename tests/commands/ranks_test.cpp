@@ -93,13 +93,47 @@ TEST_F(RanksOfProgram, KeepWhatWasFoundUntilALimit) {
   EXPECT_THAT(results("s.h5").stopped, HasSubstr("the time limit of 0.3 s CPU"));
 }
 
+/// More samples, as of a run that is shared out.
+TEST_F(OneRankApart, ExtendTogether) {
+  ASSERT_THAT(gamut("run s.toml --quiet --memory-limit 2").exitCode, AnyOf(0, 3));
+  const int code = gamut("extend s.h5 --samples 12000 --quiet --memory-limit 2 -o alone.h5").exitCode;
+  EXPECT_THAT(code, AnyOf(0, 3));
+  const Outcome shared = onRanks(3, "extend s.h5 --samples 12000 --memory-limit 2 -o t.h5");
+  EXPECT_EQ(shared.exitCode, code) << shared.error;
+  EXPECT_THAT(differencesButCosts(results("t.h5"), results("alone.h5")), IsEmpty());
+  EXPECT_EQ(shared.out.find("CPU: "), shared.out.rfind("CPU: "));
+  std::filesystem::create_directory(folder_.path("elsewhere"));
+  expectComplaint(apart("cd elsewhere", "extend s.h5 --samples 20000"), 2, "rank 2: s.h5: does not exist");
+  expectComplaint(onRanks(3, "extend s.h5 --samples 8"), 2, "s.h5: holds 4000 samples, and would hold 8");
+  std::filesystem::copy_file(folder_.path("t.h5"), folder_.path("elsewhere/s.h5"));
+  expectComplaint(apart("cd elsewhere", "extend s.h5 --samples 20000"), 2, "s.h5: rank 2 has another program");
+}
+
+/// Whatever is not shared out is done once, whoever is there besides.
 TEST_F(RanksOfProgram, DoOneThingAlone) {
   gamut("run s.toml --quiet");
-  const Outcome alone = gamut("info s.h5");
-  EXPECT_THAT(alone.out, Not(IsEmpty()));
-  const Outcome three =
-      gamut("info s.h5", "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 3 ");
-  EXPECT_EQ(three.out, alone.out);
+  const std::string three = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 3 ";
+  for (const char* command :
+       {"info s.h5", "check s.h5", "compare s.h5 s.h5", "report s.h5 -o again.html", "replay s.h5 3",
+        "export s.h5 --csv tables", "sample s.h5 --samples 20", "tolerance s.toml", "validate s.toml", "new fresh.toml",
+        "quantities s.toml", "schema", "completion bash"}) {
+    SCOPED_TRACE(command);
+    std::string made[2];
+    Outcome outcomes[2];
+    for (const int shared : {0, 1}) {
+      outcomes[shared] = gamut(command, shared == 1 ? three : "");
+      for (const char* file : {"again.html", "fresh.toml"})
+        if (folder_.has(file)) made[shared] += folder_.read(file);
+      for (const char* file : {"again.html", "fresh.toml", "tables"}) std::filesystem::remove_all(folder_.path(file));
+    }
+    EXPECT_THAT(outcomes[0].out + made[0], Not(IsEmpty()));
+    EXPECT_EQ(outcomes[1].out, outcomes[0].out);
+    EXPECT_EQ(outcomes[1].exitCode, outcomes[0].exitCode) << outcomes[1].error;
+    EXPECT_EQ(made[1], made[0]);
+    if (outcomes[0].exitCode == 0) {
+      EXPECT_EQ(outcomes[1].error, outcomes[0].error);
+    }
+  }
 }
 
 }  // namespace

@@ -112,6 +112,46 @@ TEST_F(Resume, NeedsNoStudyFileAndTakesAnotherNameForThePage) {
   EXPECT_EQ(results.studyText, whole_.studyText);
 }
 
+/// An extension that was killed, of results in their place and of such as are written elsewhere.
+TEST_F(Resume, GoesOnWithMoreSamples) {
+  const Outcome more = gamut("extend whole.h5 --samples 30000 --quiet -o more.h5");
+  EXPECT_THAT(more.exitCode, AnyOf(0, 3)) << more.error;
+  const Results longer = readResults(folder_.path("more.h5"));
+  const double cpu = longer.extensions.back().cpu;
+  for (const bool isInPlace : {true, false}) {
+    SCOPED_TRACE(isInPlace);
+    Words words{"extend", "whole.h5", "--samples", "30000", "--checkpoint", "0.02", "-o", "s.h5"};
+    if (isInPlace) words = {"extend", "s.h5", "--samples", "30000", "--checkpoint", "0.02"};
+    for (int i = 0; i < 40 && !isThere("s.h5.checkpoint"); ++i) {
+      forget();
+      if (isInPlace) std::filesystem::copy_file(folder_.path("whole.h5"), folder_.path("s.h5"));
+      killed(words, (0.2 + 0.02 * i) * cpu);
+    }
+    ASSERT_TRUE(isThere("s.h5.checkpoint"));
+    EXPECT_THAT(gamut("extend whole.h5 --samples 30000 -o s.h5").error, HasSubstr(isInPlace ? "exists" : "was killed"));
+    const Outcome end = gamut("resume s.h5 --quiet");
+    EXPECT_EQ(end.exitCode, more.exitCode) << end.error;
+    EXPECT_EQ(end.error, "");
+    EXPECT_THAT(differencesButCosts(readResults(folder_.path("s.h5")), longer), IsEmpty());
+    EXPECT_TRUE(isThere("s.html"));
+    EXPECT_FALSE(isThere("s.h5.checkpoint"));
+    EXPECT_GT(readResults(folder_.path("s.h5")).extensions.back().cpu, 0.3 * cpu);  // of both processes
+  }
+}
+
+TEST_F(Resume, RefusesOtherResultsThanWereExtended) {
+  for (int i = 0; i < 40 && !isThere("s.h5.checkpoint"); ++i) {
+    forget();
+    killed({"extend", "whole.h5", "--samples", "30000", "--checkpoint", "0.02", "-o", "s.h5"}, 0.3 + 0.02 * i);
+  }
+  ASSERT_TRUE(isThere("s.h5.checkpoint"));
+  gamut("run s.toml --quiet --force -o whole.h5 --samples 100");
+  const Outcome other = gamut("resume s.h5");
+  EXPECT_EQ(other.exitCode, 2);
+  EXPECT_THAT(other.error, HasSubstr("whole.h5: is not what it was when s.h5.checkpoint began; expected the results"));
+  EXPECT_TRUE(isThere("s.h5.checkpoint"));
+}
+
 TEST_F(Resume, SaysWhatThereIsInstead) {
   const auto said = [&](const std::string& arguments) {
     const Outcome run = gamut(arguments);

@@ -7,10 +7,14 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/results/results_file.hpp"
+#include "studies/results/verdict.hpp"
+#include "studies/running/extension.hpp"
 #include "studies/running/run.hpp"
 #include "studies/watch.hpp"
 #include "tests/analyses/rank_threads.hpp"
@@ -66,6 +70,88 @@ TEST(RanksOfRun, ComeToTheSameOfDisputes) {
 }
 
 TEST(RanksOfRun, ComeToTheSameOfFewSamples) { expectTheSame(sampleStudyWith("samples = 16", "samples = 16")); }
+
+/// The first rank's extension of results to so many samples.
+Extension extendedOnSoMany(int ranks, const Machine& machine, const Results& before, std::size_t samples) {
+  Extension extension;
+  onRanks(ranks, [&](Communicator& communicator) {
+    RunOptions options;
+    options.samples = samples;
+    options.jobs = 1 + communicator.rank() % 2;
+    options.communicator = &communicator;
+    Extension found = extend(machine, before, options);
+    if (communicator.isFirst()) extension = std::move(found);
+  });
+  return extension;
+}
+
+TEST(RanksOfExtension, ComeToTheSame) {
+  for (const char* loose : {"", "\ntolerance = { relative = 1e-2, absolute = 1e-2 }"}) {  // many are looked at again
+    const Machine machine(readStudyText(longStudy("0.3", std::string("samples = 600") + loose), "s.toml"));
+    const Results before = run(machine, {});
+    RunOptions alone;
+    alone.samples = 2000;
+    const Extension whole = extend(machine, before, alone);
+    EXPECT_GT(whole.met, 0U);
+    for (const int ranks : {2, 3, 5}) {
+      const Extension shared = extendedOnSoMany(ranks, machine, before, 2000);
+      EXPECT_THAT(differencesButCosts(shared.results, whole.results), IsEmpty()) << ranks;
+      EXPECT_EQ(shared.met, whole.met);
+      EXPECT_EQ(shared.changed, whole.changed);
+      EXPECT_TRUE(shared.isMore);
+    }
+  }
+}
+
+/// A motion that is another one now is on one rank alone; all end, and say so.
+TEST(RanksOfExtension, EndTogether) {
+  const Machine machine(readStudyText(longStudy("0.3", "samples = 600"), "s.toml"));
+  Results before = run(machine, {});
+  std::vector<Results> results(3, before);
+  KeptSamples& kept = before.stochastic.kept;
+  kept.motions[kept.motions.size() / kept.motionNumber.size()] += 1;  // of the second that is kept
+  results[1] = before;
+  for (const auto& [isSame, what] : {std::pair{true, "its motion is another one"}, {false, "another program"}}) {
+    std::atomic<int> refused{0};
+    onRanks(3, [&](Communicator& communicator) {
+      RunOptions options;
+      options.samples = 2000;
+      options.communicator = &communicator;
+      try {
+        extend(machine, isSame ? before : results[communicator.rank()], options);
+      } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), HasSubstr(what));
+        ++refused;
+      }
+    });
+    EXPECT_EQ(refused, 3) << what;
+  }
+}
+
+TEST(RanksOfExtension, EndWhenOneIsToStop) {
+  const Machine machine(readStudyText(longStudy("0.3", "samples = 600"), "s.toml"));
+  const Results before = run(machine, {});
+  for (const int told : {0, 2}) {
+    std::atomic<bool> stop{false};
+    std::atomic<int> blocks{0};
+    Extension ended;
+    onRanks(3, [&](Communicator& communicator) {
+      RunOptions options;
+      options.samples = 100000;
+      options.communicator = &communicator;
+      options.progress = [&](const std::string&, double fraction) {
+        if (fraction > 0.2 && ++blocks > 3) stop = true;
+      };
+      if (communicator.rank() == told) options.cancelled = &stop;
+      Extension found = extend(machine, before, options);
+      if (communicator.isFirst()) ended = std::move(found);
+    });
+    EXPECT_THAT(ended.results.stopped, HasSubstr("interrupted")) << told;
+    EXPECT_TRUE(ended.isMore) << told;
+    EXPECT_LT(ended.results.stochastic.integrated, 100000) << told;
+    EXPECT_NE(findVerdict(ended.results).word, Agreement::outside) << told;
+  }
+}
 
 /// Whichever rank is told to stop, at whatever moment: the first comes to its end, and what it found holds.
 TEST(RanksOfRun, EndWhenOneIsToStop) {
