@@ -85,6 +85,18 @@ std::string Chromium::found(const std::string& page, const std::string& script, 
   return text;
 }
 
+double Chromium::cpuToOpen(const std::string& page, const Screen& screen) {
+  const Tab tab = opened(page, screen);
+  ranIn(tab,
+        "await new Promise(then => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(then, 0))));"
+        "return '';");
+  const json told = json::parse(asked("Performance.getMetrics", "{}", tab.session));
+  close(tab);
+  for (const json& metric : told["result"]["metrics"])
+    if (metric["name"] == "TaskDuration") return metric["value"];
+  throw std::runtime_error("the browser does not say what a page takes: " + told.dump());
+}
+
 std::string Chromium::picture(const std::string& page, const std::string& script, const Screen& screen) {
   const Tab tab = opened(page, screen, true);
   ranIn(tab, script + "; return '';");
@@ -108,6 +120,7 @@ Chromium::Tab Chromium::opened(const std::string& page, const Screen& screen, bo
   asked("Emulation.setEmulatedVisionDeficiency", json{{"type", screen.isDeuteranopic ? "deuteranopia" : "none"}}.dump(),
         session);
   if (isPicture) asked("Emulation.setScrollbarsHidden", R"({"hidden": true})", session);  // they tell how long it is
+  asked("Performance.enable", R"({"timeDomain": "threadTicks"})", session);
   asked("Page.navigate", json{{"url", "file://" + page}}.dump(), session);
   return {id, session};
 }

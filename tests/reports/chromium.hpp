@@ -29,6 +29,8 @@ class Chromium {
   /// The text that an asynchronous function finds in this page; its body is `script`, which may wait. The page is
   /// opened when it begins, and closed when it ends; whether its own scripts are done is for it to await.
   std::string found(const std::string& page, const std::string& script, const Screen& screen);
+  /// CPU time, s, that the page's own thread has taken until it is loaded, laid out and painted.
+  double cpuToOpen(const std::string& page, const Screen& screen);
   /// What is seen once such a script has ended: a PNG.
   std::string picture(const std::string& page, const std::string& script, const Screen& screen);
 

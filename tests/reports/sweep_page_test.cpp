@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/reports/in_chromium.hpp"
+#include "tests/studies/temporary_folder.hpp"
+
 namespace gamut::sweep_page_test {
 
 using ::testing::HasSubstr;
@@ -104,6 +107,33 @@ TEST(SweepPage, SaysWhatIsMissing) {
 TEST(SweepPage, StaysSmallHoweverManyPoints) {
   EXPECT_LT(renderSweep(swept({true, {axis("a", 21), axis("b", 21)}})).size(), 700'000U);
   EXPECT_LT(renderSweep(swept({true, {axis("a", 300), axis("b", 300)}})).size(), 20'000'000U);
+}
+
+using SweepPageInBrowser = InChromium;
+
+/// Of four outputs and three requirements over 21 x 21 points.
+TEST_F(SweepPageInBrowser, OpensInTwoSeconds) {
+  SweepResults sweep;
+  sweep.plan = {true, {axis("a", 21), axis("b", 21)}};
+  sweep.outputs.resize(4, {"height", "tip.position.z", "m"});
+  sweep.requirements.resize(3, {"slow", "always abs(hinge.rate) < 1"});
+  prepare(sweep);
+  for (std::size_t p = 0; p < sweep.points.size(); ++p) {
+    std::vector<double> numbers(3 * requirementColumns().size() + 4 * outputColumns().size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>((7 * p + i) % 441) / 441;
+    SweepPoint point;
+    point.number = static_cast<std::int64_t>(p);
+    point.state = PointState::done;
+    put(sweep, point, numbers);
+  }
+  const TemporaryFolder folder;
+  folder.write("empty.html", "<!doctype html><title>Nothing</title>");
+  folder.write("sweep.html", renderSweep(sweep));
+  const double nothing = chromium->cpuToOpen(folder.path("empty.html"), {}),
+               page = chromium->cpuToOpen(folder.path("sweep.html"), {});
+  EXPECT_GT(page, nothing);
+  EXPECT_LT(page, 2) << "an empty page takes " << nothing << " s";
+  RecordProperty("milliseconds_of_cpu", static_cast<int>(1000 * page));
 }
 
 }  // namespace gamut::sweep_page_test
