@@ -5,7 +5,9 @@ import json
 import os
 import pathlib
 import pickle
+import shutil
 import subprocess
+import sys
 import tomllib
 
 import numpy
@@ -211,6 +213,33 @@ def test_an_interrupt_keeps_what_was_found(tmp_path):
     said = process.communicate(timeout=120)[0]
     assert process.returncode == 0 and "ended: the run was interrupted" in said
     assert gamut.open(tmp_path / "part.h5").ended == "the run was interrupted"
+
+
+@pytest.mark.skipif(shutil.which("mpirun") is None, reason="there is no mpirun")
+def test_scripts_under_mpirun_share_nothing_and_write_once(tmp_path):
+    (tmp_path / "s.toml").write_text(pendulum().to_toml())
+    (tmp_path / "script.py").write_text("""if True:
+        import os, gamut
+        rank = os.environ["OMPI_COMM_WORLD_RANK"]
+        study = gamut.Study.from_toml(open("s.toml").read())
+        results = study.run(progress=False, jobs=1)
+        over = {"rod.length": [1.0, 1.1]}
+        both = {"results": lambda: results.save("r.h5"),
+                "sweep": lambda: study.sweep(over, file="s.h5", progress=False)}
+        for name, write in both.items():
+            try:
+                write()
+                said = "wrote"
+            except OSError:
+                said = "refused"
+            open(name + rank, "w").write(said)
+    """)
+    subprocess.run(["mpirun", "--oversubscribe", "-n", "2", sys.executable, "script.py"], cwd=tmp_path, check=True,
+                   timeout=300, env=os.environ | {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})  # fmt: skip
+    said = {name: sorted((tmp_path / f"{name}{rank}").read_text() for rank in (0, 1)) for name in ("results", "sweep")}
+    assert said["results"] == ["refused", "wrote"]
+    assert "wrote" in said["sweep"]  # the second is refused, or finds the points that the first one has kept
+    assert (gamut.open(tmp_path / "s.h5").points["state"] == "done").all()
 
 
 def test_tolerances_that_a_requirement_allows():
