@@ -142,6 +142,7 @@ class MarginBar {
     }
     std::vector<double> taken;
     const auto write = [&](const std::string& text, double at, const char* kind) {
+      if (text.empty()) return;
       constexpr double letter = 6.5, gap = 6;
       const double wide = 0.5 * letter * static_cast<double>(text.size()), place = std::clamp(at, wide, width - wide);
       if (std::ranges::any_of(taken, [&](double other) { return std::abs(place - other) < wide + word + gap; })) return;
