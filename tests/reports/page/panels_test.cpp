@@ -55,16 +55,22 @@ TEST(Panels, HoldARowOfEachOutputThatUnfoldsWithoutAScript) {
   EXPECT_THAT(rowOf(page, 1), HasSubstr("data-head=\"peak\">0 to 0.05 s</span>"));  // where it begins
 }
 
-/// Beyond an upper limit lies what is to the right of it, beyond a lower one what is to the left, as outputs do.
-TEST(Cards, DrawMarginsAsTheirOutputsLie) {
-  Results results = example::pendulum(61, 2);
+/// Of a requirement whose margins are the outputs from the second on.
+Results withMet(const std::string& statement, int margins) {
+  Results results = example::pendulum(61, static_cast<std::size_t>(margins) + 1);
   RequirementResult& requirement = results.requirements.emplace_back();
-  requirement.name = "ceiling";
-  requirement.statement = "always a < 1 rad";
+  requirement.name = requirement.statement = statement;
   requirement.word = Decision::met;
-  requirement.margin = requirement.margins = 1;
+  requirement.margin = 1;
+  requirement.margins = margins;
   requirement.until = results.horizon;
   requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  return results;
+}
+
+/// Beyond an upper limit lies what is to the right of it, beyond a lower one what is to the left, as outputs do.
+TEST(Cards, DrawMarginsAsTheirOutputsLie) {
+  Results results = withMet("always a < 1 rad", 1);
   results.margins.push_back({1, "a", false, "1 rad", "rad", true, 0, 1, true});
   const auto number = [&](const std::string& shape, const std::string& name) {
     const std::string page = renderReport(results);
@@ -84,15 +90,7 @@ TEST(Cards, DrawMarginsAsTheirOutputsLie) {
 
 /// Of a requirement that names two, both, unless one is so far off that nothing else would be seen.
 TEST(Cards, DrawBothLimits) {
-  Results results = example::pendulum(61, 3);
-  RequirementResult& requirement = results.requirements.emplace_back();
-  requirement.name = "between";
-  requirement.statement = "always -3 rad < a < 3 rad";
-  requirement.word = Decision::met;
-  requirement.margin = 1;
-  requirement.margins = 2;
-  requirement.until = results.horizon;
-  requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  Results results = withMet("always -3 rad < a < 3 rad", 2);
   for (std::size_t i = 0; i < results.time.size(); ++i)
     results.interval.at.lower(i, 0) = -2.5, results.interval.at.upper(i, 0) = 2.5;
   const auto bar = [&](double low, double high) {
