@@ -32,10 +32,13 @@ OutputFile reserveResults(const ExtendArguments& arguments) {
   return reserve(arguments.results, arguments.input, arguments.force);
 }
 
+bool replacesPage(const ExtendArguments& arguments) {
+  return arguments.force || (arguments.results.empty() && arguments.report.empty());
+}
+
 OutputFile reserveReport(const ExtendArguments& arguments) {
   const std::string results = arguments.results.empty() ? arguments.input : arguments.results;
-  return reserve(pageBeside(results, arguments.report), arguments.input,
-                 arguments.force || (arguments.results.empty() && arguments.report.empty()));
+  return reserve(pageBeside(results, arguments.report), arguments.input, replacesPage(arguments));
 }
 
 CheckpointPlan planOf(const Machine& machine, const Results& before, const RunOptions& options,
@@ -44,6 +47,7 @@ CheckpointPlan planOf(const Machine& machine, const Results& before, const RunOp
   plan.seed = static_cast<std::uint64_t>(before.seed);
   plan.samples = arguments.samples;
   plan.isReplaced = arguments.force || arguments.results.empty();
+  plan.isPageReplaced = replacesPage(arguments);
   plan.extended = fs::absolute(arguments.input).lexically_normal().string();
   plan.extendedDigest = digestOf(before);
   return plan;
@@ -78,7 +82,7 @@ ExitCode extend(ExtendArguments arguments) {
     resultsFile.reset(new OutputFile(reserveResults(arguments)));
     reportFile.reset(new OutputFile(reserveReport(arguments)));
     // NOLINTEND(modernize-make-unique)
-    refuseToForget(resultsFile->path(), arguments);
+    refuseToForget(*resultsFile, arguments);
     if (arguments.interval > 0)
       checkpoints.emplace(checkpointOf(resultsFile->target()),
                           planOf(*machine, before, options, arguments, reportFile->path()), sayNote);

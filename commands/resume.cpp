@@ -68,10 +68,14 @@ struct Resumed {
 /// The results of an extension, as they were when it began.
 Results resultsOfPlan(const CheckpointPlan& plan, const std::string& path) {
   Results before = readResults(plan.extended);
-  if (digestOf(before) != plan.extendedDigest)
-    throw UsageError(fmt::format("{}: is not what it was when {} began; expected the results that are extended there",
-                                 plan.extended, path));
-  return before;
+  if (digestOf(before) == plan.extendedDigest) return before;
+  if (before.stochastic.samples >= static_cast<std::int64_t>(plan.samples))
+    throw UsageError(
+        fmt::format("{}: holds {} samples already; expected gamut report {}, which draws their page, and {} to be "
+                    "deleted",
+                    plan.extended, before.stochastic.samples, shellQuoted(plan.extended), path));
+  throw UsageError(fmt::format("{}: is not what it was when {} began; expected the results that are extended there",
+                               plan.extended, path));
 }
 
 /// What every rank does before they go on together. Throws what there is to complain of.
@@ -105,7 +109,7 @@ ExitCode takePartIn(ResumeArguments arguments, const std::string& path) {
 }
 
 ExitCode resume(ResumeArguments arguments) {
-  const std::string path = checkpointOf(arguments.results);
+  const std::string path = checkpointOf(OutputFile::targetOf(arguments.results));
   if (!isFirstRank()) return takePartIn(std::move(arguments), path);
   std::unique_ptr<OutputFile> resultsFile, reportFile;
   std::unique_ptr<CheckpointFile> checkpoints;
@@ -116,13 +120,14 @@ ExitCode resume(ResumeArguments arguments) {
     resultsFile = std::make_unique<OutputFile>(arguments.results, OutputFile::Existing::isReplaced);
     checkpoints = checkpointsOf(checkpointOf(resultsFile->target()));
     const CheckpointPlan& plan = checkpoints->plan();
-    arguments.force = arguments.force || plan.isReplaced;
-    if (!arguments.force && fs::exists(arguments.results))
+    if (!arguments.force && !plan.isReplaced && fs::exists(arguments.results))
       throw OutputRefused(arguments.results + ": exists already, since the run was killed; expected --force");
     resumed = prepare(arguments, *checkpoints);
-    const std::string& report = arguments.report.empty() ? plan.report : arguments.report;
+    const bool isAsPlanned = arguments.report.empty();
+    const std::string& report = isAsPlanned ? plan.report : arguments.report;
     // NOLINTNEXTLINE(modernize-make-unique): it cannot be moved
-    reportFile.reset(new OutputFile(reserve(report, arguments.results, arguments.force)));
+    reportFile.reset(
+        new OutputFile(reserve(report, arguments.results, arguments.force || (isAsPlanned && plan.isPageReplaced))));
   });
   if (resumed.before)
     return extendAndKeep(*resumed.machine, *resumed.before, checkpoints->plan().extended, std::move(resumed.options),
@@ -135,7 +140,9 @@ ExitCode resume(ResumeArguments arguments) {
 
 Action resume(CLI::App& command) {
   const auto arguments = std::make_shared<ResumeArguments>();
-  command.add_option("results", arguments->results, "Results file of the run, which is not there yet")
+  command
+      .add_option("results", arguments->results,
+                  "Results file of the run, which is not there yet, or to which samples were to come")
       ->required()
       ->type_name("RESULTS.h5");
   command.add_option("--report", arguments->report, "Report page; otherwise where the run was to write it")

@@ -70,7 +70,7 @@ ExitCode run(RunCommandArguments arguments) {
     resultsFile.reset(new OutputFile(reserve(arguments.results, arguments.study, arguments.force)));
     reportFile.reset(new OutputFile(reserve(arguments.report, arguments.study, arguments.force)));
     // NOLINTEND(modernize-make-unique)
-    refuseToForget(arguments.results, arguments);
+    refuseToForget(*resultsFile, arguments);
     if (arguments.interval > 0)
       checkpoints.emplace(checkpointOf(resultsFile->target()), planOf(machine.study, options, arguments), sayNote);
   });

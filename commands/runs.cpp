@@ -180,18 +180,18 @@ CheckpointPlan planOf(const Study& study, const Limits& limits, const RunArgumen
   plan.timeLimit = limits.time;
   plan.memoryLimit = limits.memory;
   plan.report = fs::absolute(report).lexically_normal().string();
-  plan.isReplaced = arguments.force;
+  plan.isReplaced = plan.isPageReplaced = arguments.force;
   plan.interval = arguments.interval;
   return plan;
 }
 
-void refuseToForget(const std::string& results, const RunArguments& arguments) {
-  const std::string path = checkpointOf(results);
+void refuseToForget(const OutputFile& results, const RunArguments& arguments) {
+  const std::string path = checkpointOf(results.target());
   if (!arguments.force && fs::exists(path))
     throw OutputRefused(
         fmt::format("{}: is of a run that was killed; expected gamut resume {}, another name, or "
                     "--force",
-                    path, shellQuoted(results)));
+                    path, shellQuoted(results.path())));
 }
 
 ExitCode runAndKeep(const Machine& machine, RunOptions options, CheckpointFile* checkpoints, OutputFile& resultsFile,
@@ -244,8 +244,12 @@ ExitCode extendAndKeep(const Machine& machine, const Results& before, const std:
     code = keepAndSay(extension.results, resultsFile, reportFile, arguments);
     noteChanges(arguments, before, extension);
   } else {
-    fmt::print(stderr, "gamut: {}: {}, before the {} samples that it holds had come again; nothing was written\n",
-               input, whyEnded(extension.results), before.stochastic.integrated);
+    const bool goesOn = interrupted() && checkpoints != nullptr && checkpoints->isThere();
+    fmt::print(
+        stderr, "gamut: {}: {}, before the {} samples that it holds had come again; {}\n", input,
+        whyEnded(extension.results), before.stochastic.integrated,
+        goesOn ? fmt::format("gamut resume {} goes on", shellQuoted(resultsFile.path())) : "nothing was written");
+    if (goesOn) return code;  // nothing was recorded since, as what ended then was cut short
   }
   if (checkpoints != nullptr) checkpoints->remove();
   return code;

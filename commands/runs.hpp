@@ -59,7 +59,7 @@ ExitCode takePart(const Machine& machine, RunOptions options, const Results* bef
 CheckpointPlan planOf(const Study& study, const Limits& limits, const RunArguments& arguments,
                       const std::string& report);
 /// What one before this would go on with is not lost unasked.
-void refuseToForget(const std::string& results, const RunArguments& arguments);
+void refuseToForget(const OutputFile& results, const RunArguments& arguments);
 void addCheckpoint(CLI::App& command, RunArguments& arguments);
 
 /// Writes the results, then draws the page, and says what was found, as was asked for, and where it is. Throws

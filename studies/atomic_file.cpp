@@ -150,6 +150,14 @@ void removeUnfinished() noexcept {
 
 void removeAbandonedBeside(const std::string& path) { removeAbandoned(folderOf(endOfLinks(path))); }
 
+std::string OutputFile::targetOf(const std::string& path) {
+  try {
+    return endOfLinks(path).string();
+  } catch (const OutputRefused&) {
+    return path;
+  }
+}
+
 OutputFile::OutputFile(const std::string& path, Existing existing) : path_(path), existing_(existing) {
   const fs::path end = endOfLinks(path), folder = folderOf(end);
   target_ = end.string();

@@ -36,6 +36,8 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
+  /// Where the symbolic links of a path lead; the path itself where that is nowhere.
+  static std::string targetOf(const std::string& path);
   /// As given.
   const std::string& path() const { return path_; }
   /// Where the symbolic links of path() lead.

@@ -248,8 +248,8 @@ std::string processor() {
 }
 
 void CheckpointPlan::archive(Archive& all) {
-  all(studyText, robotText, tablesText, studyFile, seed, samples, timeLimit, memoryLimit, report, isReplaced, interval,
-      extended, extendedDigest);
+  all(studyText, robotText, tablesText, studyFile, seed, samples, timeLimit, memoryLimit, report, isReplaced,
+      isPageReplaced, interval, extended, extendedDigest);
 }
 
 std::string checkpointOf(const std::string& results) { return results + ".checkpoint"; }

@@ -27,7 +27,8 @@ struct CheckpointPlan {
   std::size_t samples = 0;
   double timeLimit = 0, memoryLimit = 0;  ///< s of CPU, bytes
   std::string report;                     ///< where its page was to be
-  bool isReplaced = false;                ///< what is at the names of results and page
+  bool isReplaced = false;                ///< what is at the name of the results
+  bool isPageReplaced = false;            ///< and of the page
   double interval = 0;                    ///< s
   std::string extended;                   ///< results to which samples come; empty: none, it is a run
   std::uint64_t extendedDigest = 0;       ///< of these (digestOf)
@@ -53,6 +54,8 @@ class CheckpointFile final : public Checkpoints {
 
   const CheckpointPlan& plan() const { return plan_; }
   const std::string& path() const { return path_; }
+  /// Whether it has a name.
+  bool isThere() const { return isNamed_; }
   /// The run is done with: the file goes.
   void remove();
 

@@ -44,7 +44,8 @@ void checkRanks(const Machine& machine, const RunOptions& options, const std::st
   const Motion& motion = machine.equations();  // proofs that loops close take time, and may have ended otherwise
   all += fmt::format("\n{} of {}, {} of {}, {}", motion.f.states(), motion.f.nodes().size(), motion.g.outputs(),
                      motion.g.nodes().size(), fmt::join(machine.remainders, " "));
-  checkRanks(options.communicator, all, "program, processor or study");
+  checkRanks(options.communicator, all,
+             own.empty() ? "program, processor or study" : "program, processor, study or results");
 }
 
 Limits agreedLimits(Limits limits, Communicator* communicator) {

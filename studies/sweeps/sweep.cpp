@@ -234,6 +234,8 @@ class PointsAtWork {
     }
     running_.clear();
     shared_.end();
+    const bool hasFailed = failure_ || !failureElsewhere_.empty();
+    if (hasFailed && isFirst() && isChanged_ && options_.keep) options_.keep(sweep_);
     if (failure_) std::rethrow_exception(failure_);
     if (!failureElsewhere_.empty() && isFirst()) throw std::runtime_error(failureElsewhere_);
   }

@@ -34,12 +34,12 @@ class Resume : public FromOutside {
   bool isThere(const std::string& name) const { return std::filesystem::exists(folder_.path(name)); }
 
   /// Starts it, and kills it after so many seconds of work. The exit code, or -SIGKILL.
-  int killed(Words words, double seconds) const {
+  int killed(Words words, double seconds, int signal = SIGKILL) const {
     for (const char* word : {"--quiet", "--jobs"}) words.emplace_back(word);
     words.emplace_back(seconds < 0.3 ? "1" : "2");
     StartedProgram program(folder_, words);
     program.awaitWork();
-    program.signalAfter(seconds, SIGKILL);
+    program.signalAfter(seconds, signal);
     return program.wait();
   }
 
@@ -137,6 +137,48 @@ TEST_F(Resume, GoesOnWithMoreSamples) {
     EXPECT_FALSE(isThere("s.h5.checkpoint"));
     EXPECT_GT(readResults(folder_.path("s.h5")).extensions.back().cpu, 0.3 * cpu);  // of both processes
   }
+}
+
+/// A signal keeps what a kill would, where there is nothing to write yet.
+TEST_F(Resume, GoesOnWithMoreSamplesAfterASignal) {
+  EXPECT_THAT(gamut("extend whole.h5 --samples 30000 --quiet -o more.h5").exitCode, AnyOf(0, 3));
+  const Results longer = readResults(folder_.path("more.h5"));
+  for (int i = 0; i < 60 && !isThere("s.h5.checkpoint"); ++i) {
+    forget();
+    const Words words{"extend", "whole.h5", "--samples", "30000", "--checkpoint", "0.005", "-o", "s.h5"};
+    EXPECT_THAT(killed(words, 0.02 + 0.005 * i, SIGTERM), AnyOf(3, -SIGTERM));
+    EXPECT_FALSE(isThere("s.h5.checkpoint") && isThere("s.h5"));
+  }
+  ASSERT_TRUE(isThere("s.h5.checkpoint"));
+  const Outcome end = gamut("resume s.h5 --quiet");
+  EXPECT_EQ(end.error, "");
+  EXPECT_THAT(differencesButCosts(readResults(folder_.path("s.h5")), longer), IsEmpty());
+  EXPECT_FALSE(isThere("s.h5.checkpoint"));
+}
+
+/// Results are replaced where they were extended in place, a page of another name is not; a link stands for its file.
+TEST_F(Resume, ReplacesNoPageUnasked) {
+  leaveACheckpoint({"run", "s.toml", "--checkpoint", "0.02"});
+  std::filesystem::create_symlink("s.h5", folder_.path("link.h5"));
+  EXPECT_THAT(gamut("run s.toml -o link.h5").error,
+              HasSubstr("s.h5.checkpoint: is of a run that was killed; expected"));
+  EXPECT_TRUE(isThere("s.h5.checkpoint"));
+  EXPECT_EQ(gamut("resume link.h5 --quiet").exitCode, code_);
+  std::filesystem::remove(folder_.path("link.h5"));
+  expectTheSame();
+  for (int i = 0; i < 40 && !isThere("s.h5.checkpoint"); ++i) {
+    forget();
+    std::filesystem::copy_file(folder_.path("whole.h5"), folder_.path("s.h5"));
+    killed({"extend", "s.h5", "--samples", "30000", "--checkpoint", "0.02"}, 0.3 + 0.02 * i);
+  }
+  ASSERT_TRUE(isThere("s.h5.checkpoint"));
+  folder_.write("notes.html", "mine");
+  const Outcome refused = gamut("resume s.h5 --report notes.html");
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_THAT(refused.error, HasSubstr("notes.html"));
+  EXPECT_EQ(folder_.read("notes.html"), "mine");
+  EXPECT_THAT(gamut("resume s.h5 --quiet").exitCode, AnyOf(0, 3));
+  EXPECT_FALSE(isThere("s.h5.checkpoint"));
 }
 
 TEST_F(Resume, RefusesOtherResultsThanWereExtended) {
