@@ -1,5 +1,7 @@
 // What is guaranteed and what is possible come from one flow over nested boxes, or, where nothing moves, from one
 // image.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -94,13 +96,15 @@ class Encloser {
     cutCpu_ = tube.cutCpuSeconds();
     levelWork_ = tube.levelWork();
     enclosePlaces(run_, seen_, tube, places_);
-    const bool isNarrowed = far == 0 || narrowByCircles(motion.g);
+    const bool isPlain = !isRough && varies();
+    const std::string unused = far == 0 && !isPlain ? "" : narrowByImages(motion.g, isPlain);
     if (isRough) {
       interval.tightness = std::nan("");
       interval.shortfall.clear();
     }
-    if (!isNarrowed && interval.shortfall.empty())
-      interval.shortfall = "what is known of angles that go far round was not used to the end: " + run_.watch.why();
+    if (!unused.empty() && interval.shortfall.empty())
+      interval.shortfall = fmt::format("what is known of {} was not used to the end: {}",
+                                       far > 0 ? "angles that go far round" : "what varies in time", unused);
   }
 
   /// For what circles tell more of.
@@ -114,52 +118,114 @@ class Encloser {
     return flow;
   }
 
-  /// A motion that is given is an image at each time, and with time as one quantity more from each to the next: where
-  /// angles go far round, more is known of that. False where the run is told to end before all of it is used.
-  bool narrowByCircles(const Program& g) {
+  /// Whether nothing is left to follow, and something varies in time.
+  bool varies() const {
+    return run_.machine.isMotionGiven() && std::ranges::any_of(study_.uncertain, &UncertainQuantity::varies);
+  }
+
+  /// `isPlain`: of polynomials as well, at whose extremes no sample is. None where it was cancelled.
+  std::optional<CircleImage> imageOf(const Program& program, double t, const Box& box, const std::vector<Box>& levels,
+                                     bool isPlain) {
+    const std::vector<int>& remainders = run_.machine.remainders;
+    if (!isPlain)
+      return imageUnlessCancelled(program, t, box, levels, study_.flow.degree, run_.watch.stop(), remainders);
+    constexpr double least = 1e6;
+    const double work = std::max(least, imageWork / static_cast<double>(2 * study_.times.size()));
+    Image image = findImage(program, t, box, levels, {}, study_.flow.degree, run_.watch.stop(), work, remainders);
+    if (image.ranges.empty()) return std::nullopt;
+    CircleImage result;
+    result.ranges = std::move(image.ranges);
+    return result;
+  }
+
+  /// With time as the last parameter, in halves of it, so often at most, while an output is far wider than at `ends`.
+  /// Empty where it was cancelled.
+  std::vector<Interval> imageOver(const Program& overTime, const Interval& time, const std::vector<Interval>& ends,
+                                  int halves, bool isPlain) {
+    constexpr double far = 1.5;
+    Box box = run_.machine.box;
+    box.push_back(time);
+    const std::optional<CircleImage> image = imageOf(overTime, 0, box, {}, isPlain);
+    if (!image) return {};
+    std::vector<Interval> all(ends.size(), Interval::entire());
+    if (!image->ranges.empty()) all = image->ranges[0];
+    bool isFar = false;
+    for (std::size_t j = 0; j < all.size(); ++j) isFar = isFar || !(width(all[j]) <= far * width(ends[j]));
+    const double middle = midpoint(time);
+    if (!isFar || halves == 0 || !(time.lower() < middle && middle < time.upper())) return all;
+    const std::vector<Interval> first = imageOver(overTime, Interval(time.lower(), middle), ends, halves - 1, isPlain);
+    if (first.empty()) return {};
+    const std::vector<Interval> second = imageOver(overTime, Interval(middle, time.upper()), ends, halves - 1, isPlain);
+    if (second.empty()) return {};
+    for (std::size_t j = 0; j < all.size(); ++j) all[j] = intersection(all[j], hull(first[j], second[j]));
+    return all;
+  }
+
+  static std::vector<Interval> rowOf(const Bounds& bounds, std::size_t i, std::size_t outputs) {
+    std::vector<Interval> row;
+    for (std::size_t j = 0; j < outputs; ++j) row.emplace_back(bounds.lower(i, j), bounds.upper(i, j));
+    return row;
+  }
+
+  static void narrow(std::size_t i, Bounds& bounds, const std::vector<Interval>& by) {
+    for (std::size_t j = 0; j < by.size(); ++j) {
+      const Interval both = intersection(Interval(bounds.lower(i, j), bounds.upper(i, j)), by[j]);
+      bounds.lower(i, j) = both.lower();
+      bounds.upper(i, j) = both.upper();
+    }
+  }
+
+  void takeImage(std::size_t i, const CircleImage& image) {
+    if (image.ranges.empty()) return;
+    narrow(i, interval.at, image.ranges[0]);
+    for (std::size_t level = 0; level < cuts_.size(); ++level) narrow(i, cuts_[level], image.ranges[level + 1]);
+    if (image.extremes.empty()) return;
+    if (i < found.extremes.size()) found.extremes[i] = image.extremes[0];
+    found.levelExtremes.insert(found.levelExtremes.end(), image.extremes.begin() + 1, image.extremes.end());
+  }
+
+  /// A motion that is given is an image at each time, and with time as one quantity more from each to the next. What
+  /// varies is any number there, as what is constant, of which more is known than of what varies along a flow; of
+  /// angles that go far round, circles know more. `isPlain`: of polynomials as well, as long as that costs no more than
+  /// the run until then. What ended it before all of it was used.
+  std::string narrowByImages(const Program& g, bool isPlain) {
     const std::size_t rows = found.reachedTimes, outputs = study_.outputs.size();
     const Program overTime = withTimeGiven(g);
-    const auto narrow = [&](std::size_t i, Bounds& bounds, const std::vector<Interval>& by) {
-      for (std::size_t j = 0; j < outputs; ++j) {
-        const Interval both = intersection(Interval(bounds.lower(i, j), bounds.upper(i, j)), by[j]);
-        bounds.lower(i, j) = both.lower();
-        bounds.upper(i, j) = both.upper();
+    const double most = run_.basis(), before = static_cast<double>(Work::counted());
+    const auto isSpent = [&](double part) {
+      return isPlain && static_cast<double>(Work::counted()) - before > part * most;
+    };
+    std::string why;
+    for (std::size_t i = 0; i < 2 * rows && why.empty(); ++i) {
+      const std::size_t row = i % rows;
+      if (isSpent(1)) {
+        why = "it costs more than the rest";
+      } else if (i < rows) {
+        const auto image = imageOf(g, study_.times[row], run_.machine.box, run_.machine.levels, isPlain);
+        if (image)
+          takeImage(row, *image);
+        else
+          why = run_.watch.why();
+      } else {
+        const std::size_t last = row > 0 ? row - 1 : 0;
+        std::vector<Interval> ends = rowOf(interval.at, row, outputs);
+        const std::vector<Interval> ofLast = rowOf(interval.at, last, outputs);
+        for (std::size_t j = 0; j < outputs; ++j) ends[j] = hull(ends[j], ofLast[j]);
+        constexpr int often = 5;
+        const std::vector<Interval> over = imageOver(overTime, Interval(study_.times[last], study_.times[row]), ends,
+                                                     isPlain && !isSpent(0.5) ? often : 0, isPlain);
+        if (over.empty()) why = run_.watch.why();
+        narrow(row, interval.over, over);
       }
-    };
-    const auto rowOfBounds = [&](std::size_t i, const Bounds& bounds) {
-      std::vector<Interval> row;
-      for (std::size_t j = 0; j < outputs; ++j) row.emplace_back(bounds.lower(i, j), bounds.upper(i, j));
-      return row;
-    };
-    const auto imageOf = [&](const Program& program, double t, const Box& box, const std::vector<Box>& levels) {
-      return imageUnlessCancelled(program, t, box, levels, study_.flow.degree, run_.watch.stop(),
-                                  run_.machine.remainders);
-    };
-    bool isWhole = true;
-    for (std::size_t i = 0; i < rows; ++i) {
-      const std::optional<CircleImage> image = imageOf(g, study_.times[i], run_.machine.box, run_.machine.levels);
-      isWhole = image.has_value();
-      if (!isWhole) break;
-      if (image->ranges.empty()) continue;
-      narrow(i, interval.at, image->ranges[0]);
-      for (std::size_t level = 0; level < cuts_.size(); ++level) narrow(i, cuts_[level], image->ranges[level + 1]);
-      if (i < found.extremes.size()) found.extremes[i] = image->extremes[0];
-      found.levelExtremes.insert(found.levelExtremes.end(), image->extremes.begin() + 1, image->extremes.end());
-      Box box = run_.machine.box;
-      box.emplace_back(study_.times[i > 0 ? i - 1 : 0], study_.times[i]);
-      const std::optional<CircleImage> over = imageOf(overTime, 0, box, {});
-      isWhole = over.has_value();
-      if (!isWhole) break;
-      if (!over->ranges.empty()) narrow(i, interval.over, over->ranges[0]);
     }
     // What holds over an interval holds at its ends, and what holds at a level at those above it.
     for (std::size_t i = 0; i < rows; ++i) {
-      narrow(i, interval.at, rowOfBounds(i, interval.over));
-      if (i + 1 < rows) narrow(i, interval.at, rowOfBounds(i + 1, interval.over));
+      narrow(i, interval.at, rowOf(interval.over, i, outputs));
+      if (i + 1 < rows) narrow(i, interval.at, rowOf(interval.over, i + 1, outputs));
       for (std::size_t level = 0; level < cuts_.size(); ++level)
-        narrow(i, cuts_[level], rowOfBounds(i, level == 0 ? interval.at : cuts_[level - 1]));
+        narrow(i, cuts_[level], rowOf(level == 0 ? interval.at : cuts_[level - 1], i, outputs));
     }
-    return isWhole;
+    return why;
   }
 
   FlowOptions options() const {

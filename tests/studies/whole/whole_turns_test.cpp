@@ -212,6 +212,49 @@ Sweep linkage(const std::string& drive, const std::array<std::string, 4>& length
   return sweep;
 }
 
+/// A drag link, whose shortest link is the frame, so that all others turn wholly: the rocker's angle, which goes round
+/// as the crank's does.
+Interval dragAngle(const Interval& crank, const Interval& coupler) {
+  const Interval x = metres(300) * cos(crank) - metres(100), y = metres(300) * sin(crank), angle = atan2(y, x);
+  const Interval r = sqrt(square(x) + square(y)), turn = 2.0 * acos(Interval(-1.0));
+  return angle + std::round((midpoint(crank) - midpoint(angle)) / (2 * std::numbers::pi)) * turn +
+         acos((square(r) + square(metres(280)) - square(coupler)) / (2.0 * metres(280) * r));
+}
+
+/// Through twenty turns by a drive that is off by so many degrees, or a coupler by so many percent, at any time: at
+/// each time no wider than what a constant deviation does, and between these finite.
+TEST(VaryingLoops, AreTightThroughManyTurnsOfADragLink) {
+  const std::array<std::string, 4> lengths = {"300 mm", "250 mm", "280 mm", "100 mm"};
+  constexpr double inside = 1 - 0x1p-40;
+  constexpr double off = 5;
+  for (const bool isLength : {false, true}) {
+    SCOPED_TRACE(isLength ? "coupler" : "drive");
+    Sweep sweep = linkage(isLength ? "0.75 rad + 13 rad/s*t" : "0.75 rad + 13 rad/s*t + phase", lengths, "60 deg",
+                          "110 deg", "", 0);
+    sweep.text.replace(sweep.text.find("\"1 s\""), 5, "\"10 s\"");
+    sweep.text.replace(sweep.text.find("samples = 64"), 12, "samples = 8");
+    sweep.text.insert(sweep.text.find("[[mechanism.element]]"), "[mechanism]\nparameters = { phase = \"0 deg\" }\n");
+    sweep.text += "[[uncertain]]\nquantity = \"" + std::string(isLength ? "coupler_arm.length" : "phase") +
+                  "\"\ninterval = \"± " + std::to_string(off) + (isLength ? " %" : " deg") +
+                  "\"\nvaries = \"freely\"\n[[output]]\nquantity = \"rocker.angle\"\n";
+    const Results results = run(readStudyText(sweep.text, "s"));
+    ASSERT_EQ(results.interval.reached, 10) << results.interval.why;
+    EXPECT_EQ(results.comparison.verdict, Agreement::inside);
+    for (int i = 0; i <= 80; ++i) {
+      Interval truth = Interval::empty();
+      for (const double end : {-inside, inside})
+        truth = hull(
+            truth, isLength ? dragAngle(Interval(0.75 + 1.625 * i), metres(250) * (1 + end * off / 100))
+                            : dragAngle(Interval(0.75 + 1.625 * i + end * off * std::numbers::pi / 180), metres(250)));
+      const double lower = results.interval.at.lower(i, 0), upper = results.interval.at.upper(i, 0);
+      EXPECT_LE(lower, truth.lower()) << i;
+      EXPECT_GE(upper, truth.upper()) << i;
+      EXPECT_LE(upper - lower, 1.01 * width(truth)) << i;
+      EXPECT_LE(results.interval.over.upper(i, 0) - results.interval.over.lower(i, 0), 6) << i;
+    }
+  }
+}
+
 Sweep parallelogram(const std::string& drive, const std::string& radius) {
   return linkage(drive, {"200 mm", "500 mm", "200 mm", "500 mm"}, "-0.29 rad", "0.31 rad", radius, 1);
 }
