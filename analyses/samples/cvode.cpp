@@ -198,12 +198,12 @@ std::string meaningOf(int flag, const std::string& message) {
       return "its tolerance is finer than doubles can be";
     case CV_ERR_FAILURE:
     case CV_CONV_FAILURE:
-      return "its steps became too short, as where the motion runs into a singularity or springs are too stiff";
+      return std::string(Integration::stepsTooShort);
     case CV_RHSFUNC_FAIL:
     case CV_FIRST_RHSFUNC_ERR:
     case CV_REPTD_RHSFUNC_ERR:
     case CV_UNREC_RHSFUNC_ERR:
-      return "its accelerations are no finite numbers there, as where the motion is not determined";
+      return std::string(Integration::ratesNotFinite);
     default:
       return "the integrator gave up: " + message;
   }

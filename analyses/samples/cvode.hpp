@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scalars/elementary/vector_unit.hpp"
@@ -28,6 +29,12 @@ enum class Method { adams, bdf };
 
 /// How far an integration got.
 struct Integration {
+  /// Whys of where a motion is singular.
+  static constexpr std::string_view stepsTooShort =
+      "its steps became too short, as where the motion runs into a singularity or springs are too stiff";
+  static constexpr std::string_view ratesNotFinite =
+      "its accelerations are no finite numbers there, as where the motion is not determined";
+
   std::size_t times = 0;  ///< number of output times reached
   double reached = 0;     ///< s
   std::string why;        ///< if it ended early, what that means; otherwise empty

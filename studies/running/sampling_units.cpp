@@ -1,4 +1,7 @@
 // What is probable: samples, a first block of them before all that is proved, the others after it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -8,6 +11,7 @@
 
 #include "analyses/checkpoints.hpp"
 #include "analyses/comparison/settlement.hpp"
+#include "analyses/samples/cvode.hpp"
 #include "analyses/samples/influence.hpp"
 #include "analyses/samples/order_statistics.hpp"
 #include "scalars/archive.hpp"
@@ -83,6 +87,23 @@ void describeConvergence(const EnsembleRun& ensemble, std::size_t outputs, Stoch
   }
 }
 
+/// What samples of loops that are placed are followed by ends nowhere but where one of these is no longer regular.
+std::string whyEnded(const Machine& machine, std::string why) {
+  if (!machine.placed) return why;
+  std::vector<std::string> all;
+  bool isOfAngles = false;
+  for (const std::string& each : machine.regular.otherwise)
+    if (each.find("half a turn") != std::string::npos)
+      isOfAngles = true;
+    else if (std::ranges::find(all, each) == all.end())
+      all.push_back(each);
+  if (isOfAngles) all.emplace_back("one of its angles comes to half a turn from where it is in the nominal machine");
+  for (const std::string_view singular : {Integration::stepsTooShort, Integration::ratesNotFinite})
+    if (const std::size_t place = why.find(singular); place != std::string::npos)
+      why.replace(place, singular.size(), fmt::format("{}", fmt::join(all, ", or ")));
+  return why;
+}
+
 void describeSamples(const Run& run, const EnsembleRun& ensemble, Results& results) {
   StochasticResult& stochastic = results.stochastic;
   Statistics numbers = ensemble.statistics();
@@ -96,13 +117,14 @@ void describeSamples(const Run& run, const EnsembleRun& ensemble, Results& resul
   stochastic.quantileUpper = std::move(numbers.upper);
   stochastic.resolution = std::move(numbers.resolution);
   stochastic.error = ensemble.error();
-  stochastic.why = ensemble.why();
+  stochastic.why = whyEnded(run.machine, ensemble.why());
   stochastic.envelope = ensemble.envelope();
   stochastic.reached = ensemble.reached();
   stochastic.integrated = static_cast<std::int64_t>(ensemble.integrated());
   stochastic.failures = static_cast<std::int64_t>(ensemble.failures());
   for (const FailedSample& sample : ensemble.failed())
-    stochastic.failed.push_back({static_cast<std::int64_t>(sample.number), sample.reached, sample.why});
+    stochastic.failed.push_back(
+        {static_cast<std::int64_t>(sample.number), sample.reached, whyEnded(run.machine, sample.why)});
   if (ensemble.options().plan == Plan::random && ensemble.isComplete() && stochastic.why.empty() &&
       ensemble.sampling().quantities() > 0)
     stochastic.covered = coveredShare(ensemble.counted(), 0.95);

@@ -255,6 +255,20 @@ TEST(VaryingLoops, AreTightThroughManyTurnsOfADragLink) {
   }
 }
 
+/// Samples say what is singular where they end, and of which loop.
+TEST(VaryingLoops, TellTheDeadPointThatSamplesComeTo) {
+  const Results results = run(readStudyText(
+      linkage("0.9 rad + 2 rad/s*t", {"300 mm", "400 mm", "250 mm", "350 mm"}, "-60 deg", "100 deg", "", 0).text +
+          "[[uncertain]]\nquantity = \"coupler_arm.length\"\ninterval = \"± 5 %\"\nvaries = \"freely\"\n"
+          "[[output]]\nquantity = \"rocker.angle\"\n",
+      "s"));
+  EXPECT_LT(results.stochastic.reached, 1);
+  const std::string dead = "the loop 'pin' comes to a dead point of coupler.angle, rocker.angle";
+  EXPECT_THAT(results.stochastic.why, ::testing::HasSubstr(dead));
+  ASSERT_FALSE(results.stochastic.failed.empty());
+  EXPECT_THAT(results.stochastic.failed[0].why, ::testing::HasSubstr(dead));
+}
+
 Sweep parallelogram(const std::string& drive, const std::string& radius) {
   return linkage(drive, {"200 mm", "500 mm", "200 mm", "500 mm"}, "-0.29 rad", "0.31 rad", radius, 1);
 }
