@@ -131,6 +131,23 @@ std::optional<Abscissa> abscissaOf(const Program& program, int node) {
   return d ? std::optional(Abscissa{d->x, d->isDifference}) : std::nullopt;
 }
 
+Program coordinatesOf(const Program& program, const std::vector<int>& halfAngles, std::vector<char>& isKnown) {
+  Recorder result(program);
+  std::vector<int> outputs;
+  isKnown.clear();
+  for (const int angle : halfAngles) {
+    const HalfAngle of = halfAngleAt(program, program.nodes()[angle]).value();
+    std::optional<Denominator> d = denominatorAt(program, of);
+    if (d && !halfAnglesOf(Recorder(program).finish({of.d})).empty()) d.reset();
+    isKnown.push_back(d ? 1 : 0);
+    int y = result.constant(d ? 1.0 : 0.0);
+    for (const int factor : of.y) y = d ? result.mul(y, factor) : y;
+    outputs.push_back(of.isNegated ? result.neg(y) : y);
+    outputs.push_back(!d ? y : d->isDifference ? result.neg(d->x) : d->x);
+  }
+  return result.finish(outputs);
+}
+
 Program withHalfTurns(const Program& program) {
   const std::vector<int> angles = halfAnglesOf(program);
   if (angles.empty()) return program;

@@ -32,6 +32,10 @@ struct Abscissa {
 };
 std::optional<Abscissa> abscissaOf(const Program& program, int node);
 
+/// A program of y and x of each of these nodes, one after the other; 0 and 0 of those that `isKnown` tells not to be
+/// known: d is not known to be what it should, or y or x are of other angles.
+Program coordinatesOf(const Program& program, const std::vector<int>& halfAngles, std::vector<char>& isKnown);
+
 /// For numbers: where x is below zero, d loses the digits of a small y, and has none left of a y of zero, so that such
 /// a node has no value in `program`. With a = atan(y √(1/(√(x² + y²) + |x|))²) it is ±π/2 - a here, as if a zero were
 /// above zero.

@@ -193,6 +193,7 @@ PlainOutputs::Angles& PlainOutputs::anglesOf(int output) {
   for (const int angle : angles) nodes.push_back(own.nodes()[angle].a);
   of.emplace(Evaluator<Interval>(Recorder(own).finish(nodes)));
   of->atWorst.emplace_back(withNodesGiven(own, angles, others));
+  of->coordinates.emplace_back(coordinatesOf(own, angles, of->isKnown));
   of->count = angles.size();
   return *of;
 }
@@ -201,14 +202,20 @@ Interval PlainOutputs::overAngles(int output, const Interval& t, const std::vect
                                   const std::vector<Interval>& parameters) {
   Angles& of = anglesOf(output);
   of.value.setParameters(parameters);
-  Interval value = valueOf(of.value(t, states), of.count);
-  if (isEmpty(value)) {
-    std::vector<Interval> all = parameters;
-    all.resize(all.size() + of.count, hull(-halfPi(), halfPi()));
-    of.atWorst[0].setParameters(all);
-    value = valueOf(of.atWorst[0](t, states), 0);
+  const Interval value = valueOf(of.value(t, states), of.count);
+  of.coordinates[0].setParameters(parameters);
+  const std::vector<Interval> found = of.coordinates[0](t, states);
+  std::vector<Interval> all = parameters;
+  for (std::size_t k = 0; k < of.count; ++k) {
+    const Interval any = hull(-halfPi(), halfPi()), angle = atan2(found[2 * k], found[2 * k + 1]);
+    all.push_back(of.isKnown[k] == 0 || isEmpty(angle) ? any : intersection(any, 0.5 * angle));
   }
-  return isEmpty(value) ? Interval::entire() : value;
+  of.atWorst[0].setParameters(all);
+  const Interval byHalves = valueOf(of.atWorst[0](t, states), 0);
+  if (isEmpty(value) || isEmpty(byHalves))
+    return isEmpty(hull(value, byHalves)) ? Interval::entire() : hull(value, byHalves);
+  const Interval both = intersection(value, byHalves);
+  return isEmpty(both) ? value : both;
 }
 
 Interval PlainOutputs::over(int output, const Interval& t, const std::vector<Interval>& states,

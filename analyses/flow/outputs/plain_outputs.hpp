@@ -68,6 +68,8 @@ class PlainOutputs {
     explicit Angles(Evaluator<Interval> whole) : value(std::move(whole)) {}
     Evaluator<Interval> value;                 // and all that it takes a root or logarithm of, then tangents of angles
     std::vector<Evaluator<Interval>> atWorst;  // likewise, with halves of angles as further parameters
+    std::vector<Evaluator<Interval>> coordinates;  // y and x of each of these
+    std::vector<char> isKnown;                     // of each of these: whether they are
     std::size_t count = 0;
   };
   struct Output {
