@@ -46,6 +46,12 @@ void FlowCollected::join(FlowCollected&& other) {
     influence[l].any = std::max(influence[l].any, other.influence[l].any);
     influence[l].nonlinear = std::max(influence[l].nonlinear, other.influence[l].nonlinear);
   }
+  for (std::size_t row = 0; row < unproved.size(); ++row) {
+    unproved[row].resize(std::max(unproved[row].size(), other.unproved[row].size()));
+    for (std::size_t o = 0; o < other.unproved[row].size(); ++o) unproved[row][o] |= other.unproved[row][o];
+  }
+  narrowing.resize(std::max(narrowing.size(), other.narrowing.size()));
+  for (std::size_t l = 0; l < other.narrowing.size(); ++l) narrowing[l] += other.narrowing[l];
   metThreshold = metThreshold || other.metThreshold;
   slideLoss = std::max(slideLoss, other.slideLoss);
   steps += other.steps;
@@ -181,7 +187,15 @@ void FlowRun::measureExcess(Tube& tube) {
   const auto isWide = [&](int input) { return !isThin(task_.box[task_.motion.states() + input]); };
   if (task_.embedding.symbols == 0 && std::ranges::none_of(task_.varying, isWide)) tube.excess_.clear();
   looseness_ = loosenessOf(tube, task_.options);
-  needsDegree_ = looseness_ > task_.aim() && ofStates <= task_.aim();
+  const std::vector<std::vector<double>> all = tube.excess_;
+  for (const FlowCollected& part : collected_)
+    for (std::size_t row = 0; row < tube.excess_.size(); ++row)
+      for (std::size_t o = 0; o < part.unproved[row].size(); ++o)
+        if (part.unproved[row][o] != 0) tube.excess_[row][o] = 0;
+  ofPolynomials_ = loosenessOf(tube, task_.options);
+  tube.excess_ = all;
+  isOfOutputs_ = looseness_ > task_.aim() && ofStates <= task_.aim();
+  needsDegree_ = ofPolynomials_ > task_.aim() && ofStates <= task_.aim();
 }
 
 void FlowRun::gatherCounts(Tube& tube) {
@@ -196,6 +210,9 @@ void FlowRun::gatherCounts(Tube& tube) {
       influence_[l].any = std::max(influence_[l].any, part.influence[l].any);
       influence_[l].nonlinear = std::max(influence_[l].nonlinear, part.influence[l].nonlinear);
     }
+  narrowing_.resize(influence_.size());
+  for (const FlowCollected& part : collected_)
+    for (std::size_t l = 0; l < part.narrowing.size(); ++l) narrowing_[l] += part.narrowing[l];
   for (const Embedded& e : task_.embedding.components)
     tube.nonlinear_.push_back(e.symbol >= 0 ? influence_[e.symbol].nonlinear : 0);
   tube.pieces_ = pieces_;

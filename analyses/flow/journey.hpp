@@ -53,6 +53,7 @@ struct FlowPiece {
   bool hasJustTurned = false;         // its solutions each at a time of its own (FlowSet::ahead)
   std::size_t fewer = 2;              // layouts by which outputs have less than states between two output times
   std::size_t inFull = 0;             // times that chords were loaded since that was 0
+  std::size_t looseRows = 0;          // output times at which an output was looser than states
   /// At own times, the hulls of stateCore_ and outputCore_ so far: ranges inside need not be found closely. Not of
   /// other pieces, which other threads may have followed.
   Known known;
@@ -74,9 +75,11 @@ struct FlowCollected {
   std::vector<std::vector<OutputExtremes>> extremes;
   std::vector<std::vector<std::shared_ptr<FlowSnapshot>>> models;  // FlowModels
   std::vector<std::vector<FlowChord>> chords;
-  std::vector<Influence> influence;  // of every symbol
-  bool metThreshold = false;         // a degree or bisection was wanted
-  double slideLoss = 0;              // FlowStepper's, the greatest of all steps
+  std::vector<Influence> influence;         // of every symbol
+  bool metThreshold = false;                // a degree or bisection was wanted
+  std::vector<std::vector<char>> unproved;  // of each output, whether plain intervals alone bounded it; or none
+  std::vector<std::uint64_t> narrowing;     // of every symbol, how often halving it would narrow loose outputs most
+  double slideLoss = 0;                     // FlowStepper's, the greatest of all steps
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)
@@ -90,7 +93,8 @@ struct FlowCollected {
         outputCore(times),
         extremes(times),
         models(times),
-        chords(times) {}
+        chords(times),
+        unproved(times) {}
 
   /// Adds what another gathered.
   void join(FlowCollected&& other);
@@ -109,6 +113,7 @@ class FlowFollower {
   FlowFollower(FlowRun& run, const FlowTask& task, FlowCollected& collected)
       : run_(run), task_(task), collected_(collected) {
     collected_.influence.resize(static_cast<std::size_t>(task.embedding.symbols));
+    collected_.narrowing.resize(static_cast<std::size_t>(task.embedding.symbols));
     if (signs_ > 0) signsWithin_.emplace(task.jumps);
   }
 
@@ -186,6 +191,12 @@ class FlowFollower {
   void encloseLevels(const FlowPiece& piece, std::size_t row);
   std::shared_ptr<FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
                                              std::optional<std::size_t> row = {});
+  double valueAt(int output, const std::vector<double>& xi);
+  Interval reachedBy(int output);
+  double widthIfHalved(const FlowPiece& piece, int symbol, const std::vector<int>& outputs,
+                       const std::vector<Interval>& bounds);
+  void lookAtLoose(FlowPiece& piece, std::size_t row, const std::vector<Interval>& states,
+                   const std::vector<Interval>& bounds);
   void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
   void loadChords(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   OutputTools& toolsBetween(std::size_t layout, std::size_t ofStates);

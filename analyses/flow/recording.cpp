@@ -258,6 +258,7 @@ class FlowFollower::Recording {
     f_.encloseWhileTurning(piece_, tau, ofParts_, outputsOfParts_);
     f_.extremes_.resize(f_.extremesAt(row));
     f_.enclose(piece_, tau, end_.states, end_.outputs);
+    f_.lookAtLoose(piece_, row, end_.states, end_.outputs);
     meet(end_.states, f_.stateCore_, ofParts_);
     meet(end_.outputs, f_.outputCore_, outputsOfParts_);
     end_.limits = f_.outputLimits_;

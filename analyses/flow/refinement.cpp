@@ -201,6 +201,39 @@ void addTo(Tube& best, double& looseness, Tube tube, double ofTube) {
   best = FlowRun::meet(std::move(tube), std::move(best));
 }
 
+/// Halvings of the whole box for outputs that are looser than states: that of which nothing could be proved, or which
+/// has kinks, is no looser than others once pieces are small enough.
+class OutputCuts {
+ public:
+  explicit OutputCuts(const FlowQuestion& question) : question_(question) {}
+
+  /// One more for the next round, which costs about twice as much as the one before; false if that is too much, or was
+  /// in vain.
+  bool add(FlowRound& round, const FlowRun& run, double cost) {
+    constexpr double helps = 0.8, helpsMuch = 0.6, dear = 2 * Work::perSecond;
+    const int symbol = run.mostNarrowing();
+    if (hasEnded_ || !run.isOfOutputs() || symbol < 0) return false;
+    const int patience = cost < dear ? 2 : 1;
+    inVain_ = run.looseness() < (cost < dear ? helps : helpsMuch) * before_ ? 0 : inVain_ + 1;
+    before_ = std::min(before_, run.looseness());
+    const double planned = question_.options.planned * Work::perSecond - question_.budget.spent;
+    hasEnded_ = inVain_ >= patience || 2 << round.cuts.size() > question_.options.maxPieces ||
+                2 * cost > std::min(question_.budget.left(), planned);
+    if (hasEnded_) {
+      round.cuts.resize(round.cuts.size() - std::min(round.cuts.size(), at(inVain_)));
+      return false;
+    }
+    round.cuts.push_back(symbol);
+    return true;
+  }
+
+ private:
+  const FlowQuestion& question_;
+  double before_ = std::numeric_limits<double>::infinity();
+  int inVain_ = 0;  // so many of the last cuts
+  bool hasEnded_ = false;
+};
+
 /// Rounds in which no piece is bisected on the way: first of one piece, then of higher degrees, or of pieces that are
 /// cut before the first step. Of five symbols and more another degree is cheaper than the 2^k pieces that halving k of
 /// them takes, but not than halving one that stands for most of the highest grades (measured: machines with six
@@ -215,7 +248,8 @@ class FixedPieces {
 
   /// Whether it is done: as tight as was asked for, or stopped. Else more degrees or pieces would cost more than is
   /// left, or do not help.
-  bool follow(Tube& best, double& looseness) {
+  /// `leaves`: smaller pieces for loose outputs are to be tried before (OutputCuts).
+  bool follow(Tube& best, double& looseness, bool leaves) {
     constexpr int firstDegree = 6, mostRepeated = 4;
     FlowRound round;
     round.isLast = false;
@@ -235,6 +269,8 @@ class FixedPieces {
       const double enough = std::max(task.aim(), question_.options.enough);
       addTo(best, looseness, std::move(tube), own);
       if (isStopped || (isWhole && own <= enough)) return true;
+      hasLeft_ = leaves && isWhole && run.isOfOutputs() && run.mostNarrowing() >= 0;
+      if (hasLeft_) return false;
       repeated = came > farthest ? 0 : repeated + 1;
       farthest = std::max(farthest, came);
       if (!round.emphasis.isUniform() && weighing_.raise(run.influence())) continue;
@@ -254,6 +290,7 @@ class FixedPieces {
     return false;
   }
 
+  bool hasLeft() const { return hasLeft_; }
   const FlowCause& limit() const { return limit_; }
 
  private:
@@ -303,6 +340,7 @@ class FixedPieces {
   const Box& box_;
   const std::vector<Box>& levels_;
   Weighing& weighing_;
+  bool hasLeft_ = false;
   FlowCause limit_;
 };
 
@@ -311,7 +349,12 @@ class Rounds {
  public:
   Rounds(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, Weighing& weighing,
          double spentBefore)
-      : question_(question), box_(box), levels_(levels), weighing_(weighing), spentBefore_(spentBefore) {
+      : question_(question),
+        box_(box),
+        levels_(levels),
+        weighing_(weighing),
+        cuts_(question),
+        spentBefore_(spentBefore) {
     round_.isLast = false;
   }
 
@@ -341,10 +384,18 @@ class Rounds {
     round_.scales = weighing_.scales();
     const FlowTask task(question_, box_, levels_, round_);
     FlowRun run(task);
+    const double before = question_.budget.spent;
     Tube tube = run.run();
+    const double cost = question_.budget.spent - before;
     const Outcome outcome = judge(task, run, tube);
     addTo(best, looseness, std::move(tube), outcome.own);
     if (round_.isLast || (reached_ == question_.horizon && outcome.own <= question_.options.enough)) return false;
+    if (reached_ == question_.horizon && cuts_.add(round_, run, cost)) {
+      --count_;
+      isAlike_ = false;
+      tightened_ = 1;
+      return true;
+    }
     return prepare(task, run, outcome);
   }
 
@@ -382,7 +433,10 @@ class Rounds {
                             run.slideLoss() > share && task.bisectsForWidth();
     isAlike_ = !of.weighsAnew && !isOfSlides;
     tightened_ = of.factor;
-    if (of.weighsAnew) return true;  // with other weights
+    if (of.weighsAnew) {  // with other weights, and symbols
+      round_.cuts.clear();
+      return true;
+    }
     if (isOfSlides) {
       round_.slideShare = share;
     } else if (of.mayRaise && !of.isInVain) {
@@ -408,6 +462,7 @@ class Rounds {
   const Box& box_;
   const std::vector<Box>& levels_;
   Weighing& weighing_;
+  OutputCuts cuts_;
   double spentBefore_;
   FlowRound round_;
   FlowCause limit_;
@@ -430,12 +485,14 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   };
   const bool mayBeFixed = question.options.split && question.options.degree < 0 && question.options.varying.empty() &&
                           !question.stopsEarly;  // a turn may ask for bisection
-  if (mayBeFixed && FixedPieces::suits(weighing.emphasis())) {
-    FixedPieces fixed(question, box, levels, weighing);
-    if (fixed.follow(best, looseness)) return finished(fixed.limit());
-  }
+  FixedPieces fixed(question, box, levels, weighing);
+  if (mayBeFixed && FixedPieces::suits(weighing.emphasis()) && fixed.follow(best, looseness, true))
+    return finished(fixed.limit());
   Rounds rounds(question, box, levels, weighing, spentBefore);
   rounds.follow(best, looseness);
+  const double enough = std::max(0.9 * (question.options.tightness - 1), question.options.enough);
+  if (fixed.hasLeft() && looseness > enough && !best.wasStopped() && fixed.follow(best, looseness, false))
+    return finished(fixed.limit());
   FlowCause limit = rounds.limit();
   const bool isSingle = question.embed(box).symbols == 0;
   if (limit.isNone() && isSingle) {  // of what varies in time alone one run is made, by the tightness that is asked for

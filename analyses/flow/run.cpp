@@ -367,7 +367,12 @@ double FlowRun::tighterBy(const Tube& tube) const {
   if (task_.embedding.symbols == 0 || !limit(tube).isNone()) return 1;
   if (tube.reached() < task_.horizon) return blindly;
   const double aim = task_.aim();  // the remainder is about proportional to the threshold
-  return looseness_ > aim ? std::clamp(2 * looseness_ / aim, least, most) : 1;
+  return ofPolynomials_ > aim ? std::clamp(2 * ofPolynomials_ / aim, least, most) : 1;
+}
+
+int FlowRun::mostNarrowing() const {
+  const auto most = std::ranges::max_element(narrowing_);
+  return most == narrowing_.end() || *most == 0 ? -1 : static_cast<int>(most - narrowing_.begin());
 }
 
 Tube FlowRun::meet(Tube a, Tube b) {

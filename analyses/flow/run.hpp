@@ -35,6 +35,10 @@ class FlowRun {
   /// tighter the threshold should be for that, or an early end; 1: as it is, or nothing would be won.
   double looseness() const { return looseness_; }
   double tighterBy(const Tube& tube) const;
+  /// Whether looseness() is that of an output, while states are as tight as was asked for.
+  bool isOfOutputs() const { return isOfOutputs_; }
+  /// The symbol to halve for loose outputs; -1 if none promises anything.
+  int mostNarrowing() const;
   /// Why no tighter run would be tighter; none if it might.
   FlowCause limit(const Tube& tube) const;
   /// The highest degree of the states' polynomials, of all pieces.
@@ -180,13 +184,14 @@ class FlowRun {
   FlowCause ended_;     // what a probe found
   double endedAt_ = 0;  // how far that start came
   int degree_ = 0, outputDegree_ = 0;
-  double looseness_ = 0, timeShare_ = 0;
+  double looseness_ = 0, ofPolynomials_ = 0, timeShare_ = 0;  // ofPolynomials_: where these could be proved
   bool metThreshold_ = false;
   double slideLoss_ = 0;
   double timeError_ = 0, truncation_ = 0;  // of pieces that have ended
   std::vector<Influence> influence_;
+  std::vector<std::uint64_t> narrowing_;
   TopGrades tops_;
-  bool stop_ = false, needsDegree_ = false, overBudget_ = false;
+  bool stop_ = false, needsDegree_ = false, isOfOutputs_ = false, overBudget_ = false;
   std::atomic<bool> outOfMemory_{false}, isAbandoned_{false}, areAlternatives_{false};
   std::vector<FlowCollected> collected_;  // one a thread
   std::size_t everyModelAt_ = 1;          // output times, counted from the last

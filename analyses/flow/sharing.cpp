@@ -41,6 +41,7 @@ void FlowRun::forgetCollected() {
   for (FlowCollected& part : collected_) {
     part = FlowCollected(task_.times.size(), task_.levels.size());
     part.influence.resize(static_cast<std::size_t>(task_.embedding.symbols));
+    part.narrowing.resize(part.influence.size());
   }
 }
 

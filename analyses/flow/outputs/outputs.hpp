@@ -27,7 +27,9 @@ class FlowOutputs {
                 const std::vector<Embedded>& parameters);
   int count() const { return outputs_; }
   /// Whether plain intervals know what polynomials do not.
-  bool hasKinks() const { return series_.hasKinks() || plain_.hasAngles(); }
+  bool hasKinks() const { return series_.hasKinks() || hasAngles(); }
+  /// Of two coordinates (atan2).
+  bool hasAngles() const { return plain_.hasAngles(); }
   /// Whether they may be other just before and after a moment than at it.
   bool hasJumps() const { return series_.kinks().hasJumps(); }
   const std::shared_ptr<const Monomials>& monomials() const { return layout_; }
