@@ -244,20 +244,22 @@ std::vector<int> Recorder::append(const Program& program, const std::vector<int>
     for (int& node : nodes) node = here[node];
     return nodes;
   };
-  int twin = -1;
+  int twin = -1, solved = -1;
+  const auto isReplaced = [&](std::size_t node) { return !instead.empty() && instead[node] >= 0; };
   matrices.assign(program.matrices().size(), -1);
   for (const Node& n : program.nodes()) {
-    if (!instead.empty() && instead[here.size()] >= 0) {
+    if (isReplaced(here.size())) {
       here.push_back(instead[here.size()]);
       continue;
     }
     if (n.op == Op::solution) {
-      if (n.b == 0) {
+      if (solved != n.a) {
         const LinearSolution& solution = program.solutions()[n.a];
         const LinearMatrix& of = program.matrices()[solution.matrix];
         int& number = matrices[solution.matrix];
         if (number < 0) number = matrix({of.kind, of.size, mapped(of.entries)});
         components = solve(number, solution.transposed, mapped(solution.rightSide));
+        solved = n.a;
       }
       here.push_back(components[n.b]);
       continue;
@@ -286,7 +288,7 @@ std::vector<int> Recorder::append(const Program& program, const std::vector<int>
                                       : std::nullopt) {
           here.push_back(halfAngleOfAxis(*this, x->isNegated ? neg(here[x->node]) : here[x->node]));
         } else {
-          here.push_back(isTwin(n.op) ? twin : emit(n.op, a, b));
+          here.push_back(isTwin(n.op) && !isReplaced(here.size() - 1) ? twin : emit(n.op, a, b));
         }
     }
   }

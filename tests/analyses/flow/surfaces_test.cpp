@@ -92,6 +92,18 @@ const std::vector<JumpingMachine>& machines() {
        2,
        keepAll,
        1.005},
+      // A sine that changes its sign, beside cosines of its angle and of another.
+      {"Sine",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = 0.5 * cos(x[0]);
+                dx[1] = 0.25 * p[0] * cos(x[1]) + 0.25 * cos(x[0]) - 0.125 * p[1] * sign(sin(x[1]));
+              }),
+       {0.25, -0.5, 1.0, 1.0},
+       {0.0, anySign, anySign, anySign},
+       3,
+       keepAll,
+       1.005},
       {"Wall", wall.first, {0.0, 1.0, 0.5, 64.0}, {0.0, anySign, anySign, anySign}, 1, keepAll, 1.005, wall.second},
       {"Gear",
        gear.first,

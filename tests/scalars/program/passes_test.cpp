@@ -5,14 +5,18 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
+#include "scalars/index.hpp"
 #include "scalars/program/rules.hpp"
 #include "scalars/recorded.hpp"
 #include "tests/scalars/program/random_program.hpp"
 
 namespace gamut::testing::passes_test {
 namespace {
+
+using detail::at;
 
 int count(const Program& program, Op op) {
   return static_cast<int>(
@@ -42,6 +46,30 @@ TEST(Rules, EachKeepsTheValueOfWhatItReplacesAndFindsWork) {
       ASSERT_THAT(values[2 * i + 1], AgreesTo45Digits(values[2 * i])) << laws[i] << ", seed " << seed;
   }
   for (const Rule& rule : rules()) EXPECT_GE(applied[rule.law], 3) << rule.law;
+}
+
+/// Sines whose cosine, and components of solutions whose others, are replaced alone, among them.
+TEST(Append, KeepsTheValuesOfNodesBesideOneThatIsReplaced) {
+  for (unsigned seed = 1; seed <= 25; ++seed) {
+    const Program program = RandomProgram(seed).withSolutions()(40, 1);
+    std::vector<int> all(program.nodes().size());
+    std::iota(all.begin(), all.end(), 0);
+    const auto values = Point().values<Precise>(Recorder(program, RuleSet::none()).program(all));
+    for (const int replaced : all) {
+      Recorder recorder(4, 2);
+      std::vector<int> instead(all.size(), -1);
+      instead[at(replaced)] = recorder.state(3);
+      const std::vector<int> here = recorder.append(program, {}, instead);
+      ASSERT_GE(std::ranges::min(here), 0) << "seed " << seed << ", node " << replaced;
+      const Point point;
+      std::vector<Precise> x(point.x.begin(), point.x.end());
+      x.push_back(values[at(replaced)]);
+      const auto found = evaluate<Precise>(recorder.finish(here), x, {point.p.begin(), point.p.end()}, point.t);
+      for (const int node : all)
+        ASSERT_THAT(found[at(node)], AgreesTo45Digits(values[at(node)]))
+            << "seed " << seed << ", node " << replaced << " replaced, node " << node;
+    }
+  }
 }
 
 TEST(Rules, AreEachNamedByTheirLawAndServeAPass) {
