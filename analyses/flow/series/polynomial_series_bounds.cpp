@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "analyses/flow/series/error_bounds.hpp"
 #include "analyses/flow/series/horner.hpp"
@@ -37,6 +38,29 @@ SidedExtreme sidedExtreme(const Plan& plan, const Kinks& kinks, const SeriesNode
     return {a != 0 ? s.a : s.b, plain, kink};
   }
   return {};
+}
+
+/// The √d of a node atan(y √(1/d)²), as angles of two coordinates have them; or -1.
+int rootOfHalfAngle(const SeriesPlan& plan, const SeriesNode& angle) {
+  if (angle.op != Op::atan) return -1;
+  for (std::vector<int> open{angle.a}; !open.empty();) {
+    const SeriesNode& factor = plan[open.back()];
+    open.pop_back();
+    if (factor.op == Op::mul) open.push_back(factor.b);
+    if (factor.op == Op::mul || factor.op == Op::neg) open.push_back(factor.a);
+    if (factor.op != Op::sqr || plan[factor.a].op != Op::recip) continue;
+    if (const int root = plan[factor.a].a; plan[root].op == Op::sqrt) return root;
+  }
+  return -1;
+}
+
+/// Whether d, or 1 + y² / d² in the angle's derivative, is what this node divides by, or has the root of.
+bool isOfHalfAngle(const SeriesPlan& plan, int node) {
+  const int of = plan[node].op == Op::recip ? plan[node].a : node;
+  for (int i = 0; i < plan.ofProgram; ++i)
+    if (const int root = rootOfHalfAngle(plan, plan[i]); root >= 0 && (of == root || of == plan[i].b || of == i))
+      return true;
+  return false;
 }
 
 }  // namespace
@@ -163,6 +187,7 @@ std::string PolynomialSeries::nearestEdge(double within) const {
 std::string PolynomialSeries::edgeOf(int node) const {
   const Op op = plan_[node].op;
   if (op == Op::solution) return "a linear system that may be singular";
+  if (isOfHalfAngle(plan_, node)) return "an angle of two coordinates (atan2) that may be half a turn, where it jumps";
   return std::string(isFunction(op) ? withFunction<FlowFunction>(op, [](auto f) { return f.edge; })
                                     : AnyFlowFunction::edge);
 }

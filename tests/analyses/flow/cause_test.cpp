@@ -95,6 +95,24 @@ TEST(FlowCause, IsAnEdgeWhereTheMotionComesToIt) {
   EXPECT_EQ(tube.cause().advice(), "");
 }
 
+/// Outputs go on there, motions do not: of a crank that turns, and of a pendulum that a controller drives over the top.
+TEST(FlowCause, IsTheJumpOfAnAngleOfTwoCoordinates) {
+  const Program crank = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = 1.0 + 0.0 * x[0];
+    dx[1] = p[0] * atan2(sin(x[0]), cos(x[0]));
+  });
+  const Program pendulum = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -10.0 * sin(x[0]) / p[0] - 2.0 * atan2(-p[0] * cos(x[0]), p[0] * sin(x[0])) / sqr(p[0]);
+  });
+  for (const Program& f : {crank, pendulum}) {
+    const Tube tube = Flow(f).enclose({0.0, 8.0, Interval(0.79, 0.81)}, 4);
+    EXPECT_EQ(tube.cause().kind, Kind::edge) << tube.why();
+    EXPECT_THAT(tube.why(), HasSubstr("(atan2) that may be half a turn, where it jumps"));
+    EXPECT_GT(tube.reached(), 0.5);
+  }
+}
+
 TEST(FlowCause, HasASentenceOfEachKind) {
   for (int kind = 1; kind <= static_cast<int>(Kind::rounds); ++kind)
     EXPECT_NE((FlowCause{static_cast<Kind>(kind), "x", 1}).sentence(), "") << kind;
