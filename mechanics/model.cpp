@@ -7,6 +7,8 @@
 #include "mechanics/assembly.hpp"
 #include "mechanics/description/refusal.hpp"
 #include "mechanics/equations/loop_rows.hpp"
+#include "scalars/algebra/linear_system.hpp"
+#include "scalars/evaluation/evaluate.hpp"
 #include "scalars/program/linear_form.hpp"
 #include "scalars/program/sides.hpp"
 #include "scalars/recorded.hpp"
@@ -127,28 +129,39 @@ Program recordClosingRates(const Mechanism& mechanism, const std::vector<std::st
 }
 
 Program recordApproach(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
-  Assembly<double> nominal(mechanism);
-  const LinearSystem<double> rows = nominal.system().dependentRows();
+  const Assembly<double> nominal(mechanism);
   const std::vector<std::string> names = mechanism.stateNames();
-  const std::size_t n = mechanism.dependents().size();
-  std::vector<double> start;
+  std::vector<double> start, values;
+  for (const std::string& dependent : mechanism.dependents())
+    start.push_back(nominal.initialState()[std::ranges::find(names, dependent) - names.begin()]);
+  for (const std::string& quantity : freeParameters) values.push_back(midpoint(mechanism.nominal(quantity)));
+  const std::size_t n = start.size();
+  const auto size = static_cast<int>(n), parameters = static_cast<int>(freeParameters.size());
+  const auto rowsAt = [&](const auto& delta, const auto& p) {
+    std::vector<Recorded> at;
+    for (std::size_t i = 0; i < n; ++i) at.push_back(start[i] + delta[i]);
+    return Assembly<Recorded>(mechanism, freeParameters, p).rowsAtStart(at);
+  };
+  const Program rows = record(size, parameters, size, [&](auto, const auto& delta, const auto& p, auto& y) {
+    std::ranges::copy(rowsAt(delta, p), y.begin());
+  });
+  // The slopes of these very rows: those of a machine of numbers may be written in other axes.
+  const std::vector<double> slopes = evaluate<double>(rows.differentiated(), std::vector<double>(n, 0.0), values);
+  const LinearSystem<double> matrix(MatrixKind::general, size,
+                                    {slopes.begin() + size, slopes.begin() + size * (size + 1)});
   std::vector<std::vector<double>> inverse(n, std::vector<double>(n, 0.0));  // column by column
   for (std::size_t i = 0; i < n; ++i) {
-    start.push_back(nominal.initialState()[std::ranges::find(names, mechanism.dependents()[i]) - names.begin()]);
     inverse[i][i] = 1;
-    rows.solve(inverse[i]);
+    matrix.solve(inverse[i]);
   }
-  return record(static_cast<int>(n), static_cast<int>(freeParameters.size()), static_cast<int>(n),
-                [&](auto, const auto& delta, const auto& p, auto& y) {
-                  std::vector<Recorded> at;
-                  for (std::size_t i = 0; i < n; ++i) at.push_back(start[i] + delta[i]);
-                  const std::vector<Recorded> open = Assembly<Recorded>(mechanism, freeParameters, p).rowsAtStart(at);
-                  for (std::size_t i = 0; i < n; ++i) {
-                    y[i] = delta[i];
-                    for (std::size_t j = 0; j < n; ++j)
-                      if (inverse[j][i] != 0) y[i] = y[i] - inverse[j][i] * open[j];
-                  }
-                });
+  return record(size, parameters, size, [&](auto, const auto& delta, const auto& p, auto& y) {
+    const std::vector<Recorded> open = rowsAt(delta, p);
+    for (std::size_t i = 0; i < n; ++i) {
+      y[i] = delta[i];
+      for (std::size_t j = 0; j < n; ++j)
+        if (inverse[j][i] != 0) y[i] = y[i] - inverse[j][i] * open[j];
+    }
+  });
 }
 
 Program recordLoops(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {

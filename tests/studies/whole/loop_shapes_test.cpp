@@ -55,6 +55,31 @@ TEST(LoopShapes, AreMirroredOnTheOtherBranch) {
   for (const std::size_t output : {0, 1}) expectAlike(atEnd(there, output), -atEnd(here, output));
 }
 
+/// As many linkages beside each other, which have nothing to do with each other but the equations.
+std::string linkages(int count) {
+  const std::string one = linkage();
+  const std::size_t begin = one.find("[[mechanism.element]]"), end = one.find("[[uncertain]]");
+  std::string all = one.substr(0, end);
+  for (int k = 1; k < count; ++k) {
+    std::string copy = one.substr(begin, end - begin);
+    for (const char* name : {"A", "B", "C", "D", "K1", "K2", "K3", "PB", "PD", "C1", "C2", "crank", "coupler", "rocker",
+                             "ab", "bc", "dc", "ground"}) {
+      const std::string quoted = "\"" + std::string(name) + "\"", own = "\"" + (name + std::to_string(k)) + "\"";
+      for (std::size_t at = copy.find(quoted); at != std::string::npos; at = copy.find(quoted, at + own.size()))
+        copy.replace(at, quoted.size(), own);
+    }
+    all += copy;
+  }
+  return all + one.substr(end);
+}
+
+/// Of more than six dependent coordinates starts are told by polynomials, from which one step leads to where loops
+/// close: where that did not, samples began beside the enclosure.
+TEST(LoopShapes, MoveAlikeBesideThreeOthers) {
+  const Results alone = known(linkage()), together = known(linkages(4));
+  for (const std::size_t output : {0, 1}) expectAlike(atEnd(together, output), atEnd(alone, output));
+}
+
 }  // namespace
 }  // namespace loop_shapes
 }  // namespace gamut
