@@ -124,10 +124,10 @@ class Tube {
   /// The cause of an early end, of which why() is the sentence.
   const FlowCause& cause() const { return cause_; }
   /// Overestimation at the output times that were reached: 1 + the greatest part that remainders (and ranges not found
-  /// to the end) add to the width of an output (without outputs: of a state); of what plain intervals bound, beside
-  /// what it is at some ξ. Of what
-  /// comes to a jump's surface or leaves it, of what is known far better than the box or than at other times
-  /// (invariants among them), and without uncertain quantities, nothing is measured.
+  /// to the end) add to the width of an output (without outputs: of a state). Of what plain intervals bound it is what
+  /// they add to what the output is at some values of the quantities. Of what comes to a jump's surface or leaves it,
+  /// of what is known far better than the box or than at other times (invariants among them), and without uncertain
+  /// quantities, nothing is measured.
   double tightness() const;
   /// Where that is more than was asked for: "at 2 s state 1 may be 1.13 times as wide as necessary". Empty otherwise.
   const std::string& shortfall() const { return shortfall_; }

@@ -390,7 +390,8 @@ class Rounds {
     const Outcome outcome = judge(task, run, tube);
     addTo(best, looseness, std::move(tube), outcome.own);
     if (round_.isLast || (reached_ == question_.horizon && outcome.own <= question_.options.enough)) return false;
-    if (reached_ == question_.horizon && cuts_.add(round_, run, cost)) {
+    // With other weights symbols have other numbers.
+    if (!outcome.weighsAnew && reached_ == question_.horizon && cuts_.add(round_, run, cost)) {
       --count_;
       isAlike_ = false;
       tightened_ = 1;
