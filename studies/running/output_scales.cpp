@@ -11,8 +11,10 @@
 namespace gamut {
 namespace {
 
-/// What the last digit of states makes of each output, along the nominal motion: where terms cancel, all that is left.
-std::vector<double> grainsOf(const Run& run, const UncertainMotion& uncertain) {
+/// What the last digit of states makes of each output at each output time, by looks at the nominal motion about it:
+/// where terms cancel, all that is left. Where an output jumps, as an angle at half a turn, a last digit decides of all
+/// of it, but only then.
+Table grainsOf(const Run& run, const UncertainMotion& uncertain) {
   constexpr std::size_t looks = 8;
   constexpr double digit = 0x1p-50;
   Motion motion = uncertain.motion;
@@ -28,10 +30,13 @@ std::vector<double> grainsOf(const Run& run, const UncertainMotion& uncertain) {
         .integrate(start, run.study.ensemble.tolerance, states.data, run.limits.sampleTime);
   const std::vector<Interval> parameters(start.begin() + n, start.end());
   outputs.setParameters(parameters);
-  std::vector<double> grains(run.study.outputs.size(), 0.0);
-  const std::size_t last = motion.times.size() - 1;
+  Table grains(motion.times.size(), run.study.outputs.size());
+  std::ranges::fill(grains.data, 0.0);
+  const std::size_t last = motion.times.size() - 1, parts = std::max<std::size_t>(std::min(looks, last), 1);
+  const auto rowOf = [&](std::size_t look) { return look * last / parts; };
   for (std::size_t look = 0; look <= std::min(looks, last); ++look) {
-    const std::size_t row = look * last / std::max<std::size_t>(std::min(looks, last), 1);
+    const std::size_t row = rowOf(look), from = look > 0 ? rowOf(look - 1) : 0;
+    const std::size_t to = look < std::min(looks, last) ? rowOf(look + 1) : row;
     std::vector<Interval> x;
     for (int i = 0; i < n; ++i) {
       const double value = states(row, static_cast<std::size_t>(i)), off = digit * std::abs(value);
@@ -39,8 +44,9 @@ std::vector<double> grainsOf(const Run& run, const UncertainMotion& uncertain) {
     }
     if (x.size() < static_cast<std::size_t>(n)) continue;
     const std::vector<Interval> values = outputs(Interval(motion.times[row]), x);
-    for (std::size_t o = 0; o < grains.size(); ++o)
-      if (isCommon(values[o])) grains[o] = std::max(grains[o], width(values[o]));
+    for (std::size_t o = 0; o < values.size(); ++o)
+      for (std::size_t t = from; isCommon(values[o]) && t <= to; ++t)
+        grains(t, o) = std::max(grains(t, o), width(values[o]));
   }
   return grains;
 }
@@ -55,7 +61,7 @@ OutputScales scalesOf(const Run& run, const UncertainMotion& motion, const Ensem
   for (const std::vector<double>* bounds : {&first.lower.data, &first.upper.data})
     if (std::ranges::any_of(*bounds, isNone)) return {};
   OutputScales scales(run.study.outputs.size());
-  const std::vector<double> grains = grainsOf(run, motion);
+  const Table grains = grainsOf(run, motion);
   constexpr double telling = 100, hardly = 1000;
   for (std::size_t o = 0; o < scales.size(); ++o) {
     OutputScale& scale = scales[o];
@@ -65,8 +71,8 @@ OutputScales scalesOf(const Run& run, const UncertainMotion& motion, const Ensem
       const double off = !error.empty() && std::isfinite(error(t, o)) ? telling * error(t, o) : 0;
       scale.size = std::max(scale.size, size);
       scale.span = std::max(scale.span, high - low);
-      if (high - low > std::max(off, telling * grains[o])) scale.isSteady = false;
-      if (size > std::max(off, hardly * grains[o])) scale.vanishes = false;
+      if (high - low > std::max(off, telling * grains(t, o))) scale.isSteady = false;
+      if (size > std::max(off, hardly * grains(t, o))) scale.vanishes = false;
     }
   }
   return scales;

@@ -56,6 +56,23 @@ TEST(AnglesOfTurns, AreHeldOnEitherSideOfTheNegativeAxis) {
   }
 }
 
+/// A swing that is let go at half a turn exactly, where a last digit decides between -π and π: behind that its
+/// direction varies, so that it has an overestimation and a distribution.
+TEST(AnglesOfTurns, VaryBehindAStartOnTheNegativeAxis) {
+  const Results results = run(readStudyText(
+      "[study]\nanalysis = \"dynamics\"\nhorizon = 1.0\noutput_step = 0.25\ncompare = [\"interval\", \"stochastic\"]\n"
+      "[mechanism]\nparameters = { w = 2.5 }\nelement = [\n"
+      "{ type = \"state\", name = \"y\", initial = -0.5, rate = \"v/(1 s)\" },\n"
+      "{ type = \"state\", name = \"v\", initial = 0, rate = \"-w^2*y/(1 s)\" }]\n"
+      "[[uncertain]]\nquantity = \"w\"\ninterval = \"± 10 %\"\n"
+      "[[output]]\nquantity = \"atan2(v, y)\"\n[stochastic]\nsamples = 64\n[distribution]\ntimes = 2\n",
+      "s"));
+  ASSERT_EQ(results.interval.reached, 1);
+  EXPECT_LE(results.comparison.maximum, 1.01);
+  ASSERT_FALSE(results.distribution.gaps.data.empty());
+  EXPECT_LE(results.distribution.gaps.data.back(), results.distribution.wanted);
+}
+
 }  // namespace
 }  // namespace angles_of_turns
 }  // namespace gamut
