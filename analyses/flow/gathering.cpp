@@ -31,6 +31,7 @@ void FlowCollected::join(FlowCollected&& other) {
   hulls(statesOver, other.statesOver);
   hulls(outputs, other.outputs);
   hulls(outputsOver, other.outputsOver);
+  hulls(outputsOfWhole, other.outputsOfWhole);
   hulls(asides, other.asides);
   hulls(stateCore, other.stateCore);
   hulls(outputCore, other.outputCore);
@@ -176,6 +177,30 @@ std::vector<std::vector<double>> FlowRun::excessOf(const Rows& bounds, Rows Flow
   return shares;
 }
 
+/// How loose outputs are without what parts of pieces tell at output times: between these nothing else is known.
+void FlowRun::measureWhole(Tube& tube, double ofStates) {
+  if (task_.outputs.outputs() == 0) return;
+  Rows whole = tube.outputs_;
+  for (const FlowCollected& part : collected_)
+    for (std::size_t row = 0; row < whole.size(); ++row)
+      if (!part.outputsOfWhole[row].empty()) joinHulls(whole[row], part.outputsOfWhole[row]);
+  std::vector<std::vector<double>> excess = excessOf(whole, &FlowCollected::outputCore, task_.options.floors);
+  double sum = 0, count = 0;
+  for (std::vector<double>& row : excess) {
+    for (const int output : task_.options.uncounted) row[output] = 0;
+    for (const double share : row) sum += std::isfinite(share) ? share / (1 + share) : 1;
+    count += static_cast<double>(row.size());
+  }
+  ofWhole_ = count > 0 ? sum / count : 0;
+  std::swap(excess, tube.excess_);
+  // Pieces of a degree that is given are as tight as that allows.
+  constexpr double muchTighter = 0.25;
+  const double looseness = loosenessOf(tube, task_.options);
+  const double tight = task_.mayBisect ? task_.aim() : std::max(task_.aim(), muchTighter * looseness);
+  isOfOutputs_ = looseness > task_.aim() && ofStates <= tight;
+  std::swap(excess, tube.excess_);
+}
+
 /// And whether a higher degree of outputs is wanted.
 void FlowRun::measureExcess(Tube& tube) {
   tube.excess_ = excessOf(tube.states_, &FlowCollected::stateCore, {});
@@ -194,7 +219,7 @@ void FlowRun::measureExcess(Tube& tube) {
         if (part.unproved[row][o] != 0) tube.excess_[row][o] = 0;
   ofPolynomials_ = loosenessOf(tube, task_.options);
   tube.excess_ = all;
-  isOfOutputs_ = looseness_ > task_.aim() && ofStates <= task_.aim();
+  measureWhole(tube, ofStates);
   needsDegree_ = ofPolynomials_ > task_.aim() && ofStates <= task_.aim();
 }
 

@@ -54,6 +54,7 @@ struct FlowPiece {
   std::size_t fewer = 2;              // layouts by which outputs have less than states between two output times
   std::size_t inFull = 0;             // times that chords were loaded since that was 0
   std::size_t looseRows = 0;          // output times at which an output was looser than states
+  int mayPart = 0;                    // into so many parts the next of these may be put, for its bounds alone
   /// At own times, the hulls of stateCore_ and outputCore_ so far: ranges inside need not be found closely. Not of
   /// other pieces, which other threads may have followed.
   Known known;
@@ -70,6 +71,7 @@ enum class FlowJourney { goesOn, bisected, ended, cancelled };
 /// Everything that pieces contributed at the output times.
 struct FlowCollected {
   std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver, asides;
+  std::vector<std::vector<Interval>> outputsOfWhole;  // outputs, but for what parts of pieces tell
   std::vector<std::vector<std::vector<Interval>>> cuts;
   std::vector<std::vector<Interval>> stateCore, outputCore;  // see FlowFollower; their hulls
   std::vector<std::vector<OutputExtremes>> extremes;
@@ -88,6 +90,7 @@ struct FlowCollected {
         outputs(times),
         outputsOver(times),
         asides(times),
+        outputsOfWhole(times),
         cuts(levels, std::vector<std::vector<Interval>>(times)),
         stateCore(times),
         outputCore(times),
@@ -191,12 +194,17 @@ class FlowFollower {
   void encloseLevels(const FlowPiece& piece, std::size_t row);
   std::shared_ptr<FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
                                              std::optional<std::size_t> row = {});
-  double valueAt(int output, const std::vector<double>& xi);
-  Interval reachedBy(int output);
-  double widthIfHalved(const FlowPiece& piece, int symbol, const std::vector<int>& outputs,
-                       const std::vector<Interval>& bounds);
+  Interval valueAt(int output, const std::vector<double>& xi);
+  class Reached;
+  Reached reachedBy(int output, std::vector<double>& variation);
+  struct Part;
+  Part wholePart() const;
+  Part halfOf(const Part& part, int symbol, double middle) const;
+  void lookOver(const FlowPiece& piece, const std::vector<int>& outputs, Part& part);
+  class Parts;
+  std::vector<int> looseOutputs(const std::vector<Interval>& bounds) const;
   void lookAtLoose(FlowPiece& piece, std::size_t row, const std::vector<Interval>& states,
-                   const std::vector<Interval>& bounds);
+                   std::vector<Interval>& bounds);
   void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
   void loadChords(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   OutputTools& toolsBetween(std::size_t layout, std::size_t ofStates);

@@ -1,6 +1,6 @@
 // Outputs that are looser than the states they are computed from: of which no polynomial can be proved (a root that may
-// come to zero), or which have a kink within the piece. How loose those are, about, and which quantity would help most
-// if it were halved.
+// come to zero), or which have a kink within the piece. How loose those are, about, which quantity would help most if
+// it were halved, and their bounds over parts of the piece: at one time these cost no more than the outputs do.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analyses/flow/journey.hpp"
+#include "analyses/flow/series/error_bounds.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -16,14 +17,39 @@ using detail::at;
 
 namespace {
 
+constexpr double roughly = 1e-2;  // ranges of polynomials over parts of pieces
+
 bool isLoose(const Interval& bound, const Interval& core, double aim) {
   return width(bound) - width(core) > aim * width(core);
 }
 
+/// As a share of the core; 0 of one that is a point.
+double excessOf(const Interval& bound, const Interval& core) {
+  return width(core) > 0 ? (width(bound) - width(core)) / width(core) : 0;
+}
+
 }  // namespace
 
-/// An output by plain intervals at this ξ, but for remainders; no number where they know none.
-double FlowFollower::valueAt(int output, const std::vector<double>& xi) {
+/// What values span at least that lie somewhere in such intervals.
+class FlowFollower::Reached {
+ public:
+  void add(const Interval& value) {
+    if (isEmpty(value)) return;
+    lowest_ = std::min(lowest_, value.upper());
+    highest_ = std::max(highest_, value.lower());
+  }
+  void add(const Reached& other) {
+    lowest_ = std::min(lowest_, other.lowest_);
+    highest_ = std::max(highest_, other.highest_);
+  }
+  Interval span() const { return lowest_ <= highest_ ? Interval(lowest_, highest_) : Interval::empty(); }
+
+ private:
+  double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
+};
+
+/// An output by plain intervals at this ξ, but for remainders; empty where they know nothing.
+Interval FlowFollower::valueAt(int output, const std::vector<double>& xi) {
   const Box place(xi.begin(), xi.end());
   std::vector<Interval> states, parameters;
   for (int i = 0; i < task_.motion.states(); ++i)
@@ -31,76 +57,225 @@ double FlowFollower::valueAt(int output, const std::vector<double>& xi) {
   for (const Embedded& e : parameters_)
     parameters.push_back(e.symbol < 0 ? rangeOf(e) : Interval(e.centre) + Interval(e.half) * place[at(e.symbol)]);
   const Interval value = outputs_->overBox(output, Interval(at_), states, parameters);
-  return isCommon(value) ? midpoint(value) : std::numeric_limits<double>::quiet_NaN();
+  return isCommon(value) ? value : Interval::empty();
 }
 
-/// The hull of what an output is at some ξ: in the middle, beside it along every axis, and at the two corners to which
-/// it falls and rises from there.
-Interval FlowFollower::reachedBy(int output) {
+/// What an output spans at least, by what it is at some ξ: in the middle, beside it along every axis, at the two
+/// corners to which it falls and rises from there, and where its polynomial is extreme. `variation`: adds what it
+/// differs by along each axis.
+FlowFollower::Reached FlowFollower::reachedBy(int output, std::vector<double>& variation) {
   constexpr double beside = 0.5;
-  Interval reached = Interval::empty();
+  Reached reached;
   const auto look = [&](const std::vector<double>& xi) {
-    const double value = valueAt(output, xi);
-    if (std::isfinite(value)) reached = hull(reached, Interval(value));
-    return value;
+    const Interval value = valueAt(output, xi);
+    reached.add(value);
+    return midpoint(value);
   };
-  std::vector<double> xi(at(symbols_), 0.0), least = xi, greatest = xi;
+  std::vector<double> xi(at(symbols_), 0.0), least = xi, greatest = xi, along = xi;
   look(xi);
   for (std::size_t l = 0; l < xi.size(); ++l) {
     xi[l] = -beside;
     const double below = look(xi);
     xi[l] = beside;
-    greatest[l] = look(xi) < below ? -1 : 1;
+    const double above = look(xi);
+    greatest[l] = above < below ? -1 : 1;
     least[l] = -greatest[l];
+    along[l] = std::fabs(above - below);
     xi[l] = 0;
   }
   look(least);
   look(greatest);
+  if (std::isfinite(outputs_->radius(output))) {
+    (*outputRange_)(outputs_->polynomial(output), whole_, roughly);
+    for (const auto* extreme : {&outputRange_->least(), &outputRange_->greatest()}) look(extreme->xi);
+  }
+  const double all = width(reached.span());
+  for (std::size_t l = 0; l < xi.size(); ++l)
+    if (along[l] > 0 && all > 0) variation[l] += along[l] / all;
   return reached;
 }
 
-/// The sum of the widths of these outputs, in units of those, if the symbol were halved.
-double FlowFollower::widthIfHalved(const FlowPiece& piece, int symbol, const std::vector<int>& outputs,
-                                   const std::vector<Interval>& bounds) {
-  constexpr double tolerance = 1e-2;
-  std::vector<Interval> halves(outputs.size(), Interval::empty());
-  FlowPoint point = point_;
-  for (const double middle : {-0.5, 0.5}) {
-    std::vector<Interval> states;
-    for (int i = 0; i < task_.motion.states(); ++i) {
-      double* p = &point.p[at(i * monomialCount_)];
-      tool_->range.substitute(symbol, middle, 0.5, &point_.p[at(i * monomialCount_)], p);
-      states.push_back(tool_->range(p, whole_, tolerance) + inflated(Interval(point.low[at(i)]), point.radius[at(i)]));
-    }
-    std::vector<Embedded> parameters = parameters_;
-    for (Embedded& e : parameters)
-      if (e.symbol == symbol) {
-        e.centre += middle * e.half;
-        e.half *= 0.5;
-      }
-    outputs_->evaluate(at_, point, piece.set.R, parameters);
-    for (std::size_t k = 0; k < outputs.size(); ++k) {
-      const int o = outputs[k];
-      const Interval plain = outputs_->overBox(o, Interval(at_), states, rangesOf(parameters));
-      const bool isKnown = std::isfinite(outputs_->radius(o));
-      const Interval own =
-          isKnown ? inflated((*outputRange_)(outputs_->polynomial(o), whole_, tolerance), outputs_->radius(o)) : plain;
-      halves[k] = hull(halves[k], intersection(own, plain));
-    }
-  }
-  double sum = 0;
-  for (std::size_t k = 0; k < outputs.size(); ++k) sum += width(halves[k]) / width(bounds[at(outputs[k])]);
-  return sum;
+/// A part of the piece at one time, written in symbols of its own.
+struct FlowFollower::Part {
+  std::vector<double> p, rounding;  // [state][monomial]; what of each state was rounded
+  std::vector<Embedded> parameters;
+  std::vector<double> middle, half;   // of ξ
+  std::vector<Interval> bounds = {};  // of the outputs that are looked at
+  std::vector<Reached> reached = {};  // by them
+};
+
+FlowFollower::Part FlowFollower::wholePart() const {
+  return {point_.p, std::vector<double>(point_.radius.size(), 0.0), parameters_, std::vector<double>(at(symbols_), 0.0),
+          std::vector<double>(at(symbols_), 1.0)};
 }
 
-/// At an output time, of what was enclosed last, in these bounds: of the first such times each, later of fewer and
-/// fewer.
-void FlowFollower::lookAtLoose(FlowPiece& piece, std::size_t row, const std::vector<Interval>& states,
-                               const std::vector<Interval>& bounds) {
-  constexpr std::size_t denselyReached = 64, denselyHalved = 8;
-  constexpr double hardly = 0.995;
-  if (outputs_ == nullptr || symbols_ == 0 || signs_ > 0) return;
+/// That with ξ_symbol = `middle` + ξ'/2 of it.
+FlowFollower::Part FlowFollower::halfOf(const Part& part, int symbol, double middle) const {
+  Part half = part;
+  const auto N = at(monomialCount_);
+  for (std::size_t i = 0; i < part.rounding.size(); ++i) {
+    const double* p = &part.p[i * N];
+    tool_->range.substitute(symbol, middle, 0.5, p, &half.p[i * N]);
+    double norm = 0;
+    for (std::size_t g = 0; g < N; ++g) norm += std::fabs(p[g]);
+    if (norm > 0)
+      half.rounding[i] = (part.rounding[i] + tool_->range.shiftError() * norm * bounds::up) * bounds::up + bounds::tiny;
+  }
+  halve(half.parameters, symbol, middle);
+  halve(half.middle, half.half, symbol, middle);
+  return half;
+}
+
+/// What these outputs are wherever ξ is in the part, and what they reach there at least. The directions of remainders
+/// are polynomials over all of the piece, and so hold over its parts. Leaves the outputs' polynomials those of the
+/// part.
+void FlowFollower::lookOver(const FlowPiece& piece, const std::vector<int>& outputs, Part& part) {
+  FlowPoint point = point_;
+  point.p = part.p;
+  std::vector<Interval> states;
+  for (std::size_t i = 0; i < part.rounding.size(); ++i) {
+    for (double* bound : {&point.radius[i], &point.loose[i]}) *bound = (*bound + part.rounding[i]) * bounds::up;
+    states.push_back(tool_->range(&point.p[i * at(monomialCount_)], whole_, roughly) +
+                     inflated(Interval(point.low[i]), point.radius[i]));
+  }
+  outputs_->evaluate(at_, point, piece.set.R, part.parameters);
+  const Box parameters = rangesOf(part.parameters);
+  part.reached.assign(outputs.size(), {});
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    const int o = outputs[k];
+    Interval bound = outputs_->overBox(o, Interval(at_), states, parameters);
+    part.reached[k].add(valueAt(o, part.middle));
+    if (std::isfinite(outputs_->radius(o))) {
+      const Interval range = (*outputRange_)(outputs_->polynomial(o), whole_, roughly);
+      bound = intersection(bound, inflated(range, outputs_->radius(o)));
+      for (const auto* extreme : {&outputRange_->least(), &outputRange_->greatest()}) {
+        std::vector<double> xi = part.middle;
+        for (std::size_t l = 0; l < xi.size(); ++l) xi[l] += part.half[l] * extreme->xi[l];
+        part.reached[k].add(valueAt(o, xi));
+      }
+    }
+    part.bounds[k] = intersection(part.bounds[k], bound);
+  }
+}
+
+/// The piece in parts, as few as tell the bounds of some outputs.
+class FlowFollower::Parts {
+ public:
+  /// `variation`: of the outputs along every symbol, about.
+  Parts(FlowFollower& follower, const FlowPiece& piece, const std::vector<int>& outputs,
+        const std::vector<Interval>& bounds, std::vector<double> variation)
+      : f_(follower), piece_(piece), outputs_(outputs), promise_(std::move(variation)) {
+    parts_.push_back(f_.wholePart());
+    for (const int o : outputs) parts_[0].bounds.push_back(bounds[at(o)]);
+    double sum = 0;
+    for (const double along : promise_) sum += along;
+    constexpr double ofVariation = 0.1;
+    for (double& along : promise_) along = sum > 0 ? ofVariation * along / sum : ofVariation;
+  }
+
+  /// The symbol of which halves narrow the outputs most; -1 if none does.
+  int halveAll() {
+    constexpr double hardly = 0.995;
+    int best = -1;
+    double least = hardly * static_cast<double>(outputs_.size());
+    for (int l = 0; l < f_.symbols_; ++l) {
+      std::vector<Part> halves = halvesOf(parts_[0], l);
+      double left = 0;
+      for (std::size_t k = 0; k < outputs_.size(); ++k)
+        left += width(hull(halves[0].bounds[k], halves[1].bounds[k])) / width(parts_[0].bounds[k]);
+      promise_[at(l)] += std::max(0.0, static_cast<double>(outputs_.size()) - left);
+      if (!(left < least)) continue;
+      least = left;
+      best = l;
+    }
+    return best;
+  }
+
+  /// Into so many parts at most, until bounds are no more than so wide beside what is reached at least, which grows on
+  /// the way. How many times something was put in half.
+  int part(int most, double aim, std::vector<Reached>& reached) {
+    constexpr int inVain = 12;
+    constexpr double helps = 0.9;
+    double before = std::numeric_limits<double>::infinity();
+    int count = 0;
+    for (int since = 0; count < most; ++count) {
+      const auto [part, excess, all] = loosest(reached);
+      if (!(excess > aim)) break;
+      if (all < helps * before) {
+        before = all;
+        since = 0;
+      } else if (++since == inVain) {
+        break;
+      }
+      std::vector<Part> halves = halvesOf(parts_[part], symbolFor(parts_[part]));
+      for (const Part& half : halves)
+        for (std::size_t k = 0; k < outputs_.size(); ++k) reached[k].add(half.reached[k]);
+      parts_[part] = std::move(halves[0]);
+      parts_.push_back(std::move(halves[1]));
+    }
+    return count;
+  }
+
+  /// What the k-th output is over all parts.
+  Interval hullOf(std::size_t k) const {
+    Interval all = Interval::empty();
+    for (const Part& part : parts_) all = hull(all, part.bounds[k]);
+    return all;
+  }
+
+ private:
+  struct Loosest {
+    std::size_t part = 0;
+    double excess = 0, all = 0;  // of its output at one end; of all outputs at both
+  };
+
+  Loosest loosest(const std::vector<Reached>& reached) const {
+    Loosest found;
+    for (std::size_t k = 0; k < outputs_.size(); ++k) {
+      const Interval core = reached[k].span();
+      if (!(width(core) > 0)) continue;
+      std::size_t lowest = 0, highest = 0;
+      for (std::size_t i = 1; i < parts_.size(); ++i) {
+        if (parts_[i].bounds[k].lower() < parts_[lowest].bounds[k].lower()) lowest = i;
+        if (parts_[i].bounds[k].upper() > parts_[highest].bounds[k].upper()) highest = i;
+      }
+      const double below = (core.lower() - parts_[lowest].bounds[k].lower()) / width(core),
+                   above = (parts_[highest].bounds[k].upper() - core.upper()) / width(core);
+      found.all += std::max(below, 0.0) + std::max(above, 0.0);
+      if (below > found.excess) found.part = lowest, found.excess = below;
+      if (above > found.excess) found.part = highest, found.excess = above;
+    }
+    return found;
+  }
+
+  int symbolFor(const Part& part) const {
+    std::size_t best = 0;
+    for (std::size_t l = 1; l < promise_.size(); ++l)
+      if (promise_[l] * part.half[l] > promise_[best] * part.half[best]) best = l;
+    return static_cast<int>(best);
+  }
+
+  std::vector<Part> halvesOf(const Part& part, int symbol) const {
+    std::vector<Part> halves;
+    for (const double middle : {-0.5, 0.5}) {
+      Part half = f_.halfOf(part, symbol, middle);
+      f_.lookOver(piece_, outputs_, half);
+      halves.push_back(std::move(half));
+    }
+    return halves;
+  }
+
+  FlowFollower& f_;
+  const FlowPiece& piece_;
+  const std::vector<int>& outputs_;
+  std::vector<double> promise_;  // of every symbol, what halving it does
+  std::vector<Part> parts_;
+};
+
+/// Of those that were enclosed last, in these bounds: which plain intervals alone bound, or looser than was asked for.
+std::vector<int> FlowFollower::looseOutputs(const std::vector<Interval>& bounds) const {
   std::vector<int> loose;
+  if (outputs_ == nullptr || symbols_ == 0 || signs_ > 0) return loose;
   const bool knowsMore = knowsMoreByBoxes();
   // Of an angle on both sides of ±π all of the circle is left, whatever is halved.
   const auto isCircle = [&](const Interval& bound) { return outputs_->hasAngles() && width(bound) > 6.28; };
@@ -108,33 +283,49 @@ void FlowFollower::lookAtLoose(FlowPiece& piece, std::size_t row, const std::vec
     if (isBounded(bounds[at(o)]) && !isCircle(bounds[at(o)]) &&
         (!std::isfinite(outputs_->radius(o)) || (knowsMore && isLoose(bounds[at(o)], outputCore_[at(o)], task_.aim()))))
       loose.push_back(o);
+  return loose;
+}
+
+/// At an output time, of what was enclosed last, in these bounds, which parts of the piece narrow: which symbol is to
+/// be halved for outputs that are loose, of the first such times each, later of fewer and fewer.
+void FlowFollower::lookAtLoose(FlowPiece& piece, std::size_t row, const std::vector<Interval>& states,
+                               std::vector<Interval>& bounds) {
+  constexpr std::size_t denselyHalved = 8;
+  constexpr int firstParts = 64, partsOfRow = 8, mostParts = 256;
+  const std::vector<int> loose = looseOutputs(bounds);
   if (loose.empty()) return;
   const std::size_t before = piece.looseRows++;
-  const auto isLookedAt = [before](std::size_t dense) { return before % std::bit_floor(1 + before / dense) == 0; };
-  if (!isLookedAt(denselyReached)) return;
+  piece.mayPart = std::min(piece.mayPart + (before == 0 ? firstParts : partsOfRow), mostParts);
   collected_.unproved[row].resize(bounds.size());
+  std::vector<double> variation(at(symbols_), 0.0);
+  std::vector<Reached> reached;
+  double looseness = 0;
   for (const int o : loose) {
-    Interval& core = outputCore_[at(o)];
-    const Interval reached = intersection(reachedBy(o), bounds[at(o)]);
-    const bool isProved = std::isfinite(outputs_->radius(o));
-    if (isProved)
-      core = hull(core, reached);
-    else if (width(reached) > 0)
-      core = reached;
-    collected_.unproved[row][at(o)] = static_cast<char>(!isProved);
+    reached.push_back(reachedBy(o, variation));
+    const Interval core = intersection(reached.back().span(), bounds[at(o)]);
+    looseness = std::max(looseness, excessOf(bounds[at(o)], core));
+    if (std::isfinite(outputs_->radius(o))) continue;
+    collected_.unproved[row][at(o)] = 1;
+    if (width(core) > 0) outputCore_[at(o)] = core;
   }
-  if (task_.isLast || !task_.options.split || !isLookedAt(denselyHalved)) return;
+  // Where states are as loose, parts of the piece are in vain.
+  constexpr double asLoose = 0.25;
   for (std::size_t i = 0; i < states.size(); ++i)
-    if (isLoose(states[i], stateCore_[i], task_.aim())) return;
-  double least = hardly * static_cast<double>(loose.size());
-  int best = -1;
-  for (int l = 0; l < symbols_; ++l)
-    if (const double own = widthIfHalved(piece, l, loose, bounds); own < least) {
-      least = own;
-      best = l;
-    }
+    if (isLoose(states[i], stateCore_[i], std::max(task_.aim(), asLoose * looseness))) return;
+  Parts parts(*this, piece, loose, bounds, std::move(variation));
+  const bool isLookedAt = before % std::bit_floor(1 + before / denselyHalved) == 0;
+  if (isLookedAt && task_.options.split) {
+    const int best = parts.halveAll();
+    if (best >= 0 && !task_.isLast) ++collected_.narrowing[at(best)];
+  }
+  joinHulls(collected_.outputsOfWhole[row], bounds);
+  piece.mayPart -= parts.part(piece.mayPart, 0.5 * task_.aim(), reached);
+  for (std::size_t k = 0; k < loose.size(); ++k) {
+    Interval& bound = bounds[at(loose[k])];
+    bound = intersection(bound, parts.hullOf(k));
+    if (const Interval core = intersection(reached[k].span(), bound); width(core) > 0) outputCore_[at(loose[k])] = core;
+  }
   outputs_->evaluate(at_, point_, piece.set.R, parameters_);
-  if (best >= 0) ++collected_.narrowing[at(best)];
 }
 
 }  // namespace gamut

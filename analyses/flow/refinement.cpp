@@ -35,6 +35,12 @@ constexpr int mostRounds = 6, mostCheapRounds = 14;
 constexpr double cheap = 5 * Work::perSecond;
 constexpr double mostHidden = 1e9;  // times below the threshold: less is rounding
 
+/// Whether something has a kink, or an edge beyond which it is not defined: no polynomial may be known of it.
+bool mayBeLoose(const Program& outputs) {
+  return std::ranges::any_of(outputs.nodes(),
+                             [](const Node& node) { return !isSmooth(node.op) || isOneSided(domainOf(node.op)); });
+}
+
 /// Of each parameter, whether one of these nodes depends on it.
 std::vector<char> parametersOf(const Program& f, const std::vector<int>& nodes) {
   std::vector<char> isPart(f.nodes().size(), 0), result(at(f.parameters()), 0);
@@ -214,8 +220,8 @@ class OutputCuts {
     const int symbol = run.mostNarrowing();
     if (hasEnded_ || !run.isOfOutputs() || symbol < 0) return false;
     const int patience = cost < dear ? 2 : 1;
-    inVain_ = run.looseness() < (cost < dear ? helps : helpsMuch) * before_ ? 0 : inVain_ + 1;
-    before_ = std::min(before_, run.looseness());
+    inVain_ = run.loosenessOfWhole() < (cost < dear ? helps : helpsMuch) * before_ ? 0 : inVain_ + 1;
+    before_ = std::min(before_, run.loosenessOfWhole());
     const double planned = question_.options.planned * Work::perSecond - question_.budget.spent;
     hasEnded_ = inVain_ >= patience || 2 << round.cuts.size() > question_.options.maxPieces ||
                 2 * cost > std::min(question_.budget.left(), planned);
@@ -244,17 +250,19 @@ class FixedPieces {
   static bool suits(const Emphasis& emphasis) { return emphasis.weights.size() > 4 && emphasis.effective <= 8; }
 
   FixedPieces(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, Weighing& weighing)
-      : question_(question), box_(box), levels_(levels), weighing_(weighing) {}
+      : question_(question), box_(box), levels_(levels), weighing_(weighing), cuts_(question) {}
 
   /// Whether it is done: as tight as was asked for, or stopped. Else more degrees or pieces would cost more than is
   /// left, or do not help.
   /// `leaves`: smaller pieces for loose outputs are to be tried before (OutputCuts).
   bool follow(Tube& best, double& looseness, bool leaves) {
-    constexpr int firstDegree = 6, mostRepeated = 4;
+    constexpr int firstDegree = 6, cheapDegree = 3, mostRepeated = 4;
     FlowRound round;
     round.isLast = false;
     round.scales = weighing_.scales();
-    round.fixedDegree = firstDegree;
+    // Of many symbols a low degree costs next to nothing beside this one, and tells whether outputs want to be cut.
+    bool isCheap = leaves && weighing_.emphasis().weights.size() >= cutCheaply && mayBeLoose(question_.outputs);
+    round.fixedDegree = isCheap ? cheapDegree : firstDegree;
     double farthest = 0;
     for (int repeated = 0; repeated < mostRepeated;) {
       round.emphasis = weighing_.emphasis();
@@ -268,19 +276,29 @@ class FixedPieces {
       const bool isWhole = came >= question_.horizon, isStopped = tube.wasStopped();
       const double enough = std::max(task.aim(), question_.options.enough);
       addTo(best, looseness, std::move(tube), own);
-      if (isStopped || (isWhole && own <= enough)) return true;
+      if (isStopped) return true;
+      const double cost = question_.budget.spent - before;
+      if (std::exchange(isCheap, false)) {
+        isCheap = isWhole && cuts_.add(round, run, cost);
+        if (!isCheap && round.cuts.empty()) round.fixedDegree = firstDegree;
+        leaves = round.cuts.empty();
+        if (isCheap || leaves) continue;
+      }
       hasLeft_ = leaves && isWhole && run.isOfOutputs() && run.mostNarrowing() >= 0;
       if (hasLeft_) return false;
+      if (isWhole && own <= enough) return true;
       repeated = came > farthest ? 0 : repeated + 1;
       farthest = std::max(farthest, came);
-      if (!round.emphasis.isUniform() && weighing_.raise(run.influence())) continue;
+      if (!round.emphasis.isUniform() && weighing_.raise(run.influence())) {
+        if (!leaves) round.cuts.clear();  // with other weights symbols have other numbers
+        continue;
+      }
       const Monomials& top = *task.layouts[task.degrees - 1].monomials;
       if (run.degree() < top.degree()) {  // it was the threshold that failed
         if (!(factor > 1)) return false;
         round.tighter *= factor;
         continue;
       }
-      const double cost = question_.budget.spent - before;
       // How far an early end is from what was asked for is not known: too many steps would cost more than they need.
       if (!enrich(round, run.topGrades(), top, isWhole || came == 0 ? cost : cost * question_.horizon / came,
                   isWhole ? own / task.aim() : infinite, isWhole ? 4 : 2))
@@ -294,6 +312,7 @@ class FixedPieces {
   const FlowCause& limit() const { return limit_; }
 
  private:
+  static constexpr std::size_t cutCheaply = 6;
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
   /// Some steps for what is too loose so many times, as far as the budget goes: each another degree or the halving of a
@@ -340,6 +359,7 @@ class FixedPieces {
   const Box& box_;
   const std::vector<Box>& levels_;
   Weighing& weighing_;
+  OutputCuts cuts_;
   bool hasLeft_ = false;
   FlowCause limit_;
 };
@@ -389,14 +409,16 @@ class Rounds {
     const double cost = question_.budget.spent - before;
     const Outcome outcome = judge(task, run, tube);
     addTo(best, looseness, std::move(tube), outcome.own);
-    if (round_.isLast || (reached_ == question_.horizon && outcome.own <= question_.options.enough)) return false;
+    if (round_.isLast) return false;
+    const bool isWhole = reached_ == question_.horizon;
     // With other weights symbols have other numbers.
-    if (!outcome.weighsAnew && reached_ == question_.horizon && cuts_.add(round_, run, cost)) {
+    if (!outcome.weighsAnew && isWhole && cuts_.add(round_, run, cost)) {
       --count_;
       isAlike_ = false;
       tightened_ = 1;
       return true;
     }
+    if (isWhole && outcome.own <= question_.options.enough) return false;
     return prepare(task, run, outcome);
   }
 

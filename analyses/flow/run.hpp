@@ -35,8 +35,10 @@ class FlowRun {
   /// tighter the threshold should be for that, or an early end; 1: as it is, or nothing would be won.
   double looseness() const { return looseness_; }
   double tighterBy(const Tube& tube) const;
-  /// Whether looseness() is that of an output, while states are as tight as was asked for.
+  /// Whether an output is loose, but for what parts of pieces tell, while states are as tight as was asked for.
   bool isOfOutputs() const { return isOfOutputs_; }
+  /// How loose such outputs are: the mean of e/(1 + e), e as looseness(), over all times and outputs.
+  double loosenessOfWhole() const { return ofWhole_; }
   /// The symbol to halve for loose outputs; -1 if none promises anything.
   int mostNarrowing() const;
   /// Why no tighter run would be tighter; none if it might.
@@ -162,6 +164,7 @@ class FlowRun {
   void gatherCuts(Tube& tube) const;
   std::vector<std::vector<double>> excessOf(const Rows& bounds, Rows FlowCollected::*cores,
                                             const std::vector<double>& floors) const;
+  void measureWhole(Tube& tube, double ofStates);
   void measureExcess(Tube& tube);
   void gatherCounts(Tube& tube);
   std::shared_ptr<const FlowModels> modelsOf(std::size_t rows);
@@ -185,6 +188,7 @@ class FlowRun {
   double endedAt_ = 0;  // how far that start came
   int degree_ = 0, outputDegree_ = 0;
   double looseness_ = 0, ofPolynomials_ = 0, timeShare_ = 0;  // ofPolynomials_: where these could be proved
+  double ofWhole_ = 0;
   bool metThreshold_ = false;
   double slideLoss_ = 0;
   double timeError_ = 0, truncation_ = 0;  // of pieces that have ended

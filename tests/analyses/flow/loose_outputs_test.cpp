@@ -1,0 +1,68 @@
+// Outputs with kinks, and of which plain intervals alone are known over a whole piece: parts of it tell their bounds at
+// output times. Judged by trajectories, and by how much wider they are than these.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "tests/analyses/flow/containment.hpp"
+
+namespace gamut::testing {
+namespace {
+
+/// Two oscillators, each with so many uncertain stiffnesses in a row, and what adds the first of them up.
+Containment oscillators(int stiffnesses) {
+  const int k = 2 * stiffnesses;
+  Containment c;
+  const auto squareOf = [=](const auto& p, int which) {
+    Recorded sum = 9.0;
+    for (int i = 0; i < stiffnesses; ++i) sum += p[static_cast<std::size_t>(which * stiffnesses + i)];
+    return sum;
+  };
+  c.f = record(5, k, [=](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -squareOf(p, 0) * sin(x[0]);
+    dx[2] = x[3];
+    dx[3] = -squareOf(p, 1) * x[2];
+    dx[4] = p[0];
+  });
+  c.g = record(5, k, 6, [](auto, const auto& x, const auto& p, auto& y) {
+    y[0] = abs(x[0]);
+    y[1] = sqrt(sqr(x[0]) + sqr(x[2] - 0.2));  // may come to zero
+    y[2] = max(x[0], x[2]) - 3.0 * abs(p[0] - 0.02);
+    y[3] = x[1] / (1.0 + abs(x[2]));
+    y[4] = sqrt(abs(x[0] - x[2]) + sqr(x[1] - x[3]));
+    y[5] = abs(x[4] + p[0]);
+  });
+  c.box = {Interval(0.45, 0.55), Interval(-0.05, 0.05), Interval(0.3, 0.36), Interval(0.0), Interval(0.0)};
+  for (int i = 0; i < k; ++i) c.box.push_back(Interval(-0.05 - 0.01 * i, 0.06));
+  c.horizon = 0.8;
+  for (int i = 1; i < 8; ++i) c.times.push_back(0.1 * i);
+  return c;
+}
+
+TEST(LooseOutputs, HoldEverySolution) {
+  for (const int stiffnesses : {1, 3}) {
+    SCOPED_TRACE(stiffnesses);
+    Containment c = oscillators(stiffnesses);
+    c.levels = {c.box};
+    for (Interval& side : c.levels[0])
+      side = Interval(midpoint(side) - 0.2 * width(side), midpoint(side) + 0.2 * width(side));
+    c.options.maxPieces = 2;
+    Judge judge(c);
+    EXPECT_EQ(judge.tube().reached(), c.horizon) << judge.tube().why();
+    judge.judge(16);
+  }
+}
+
+TEST(LooseOutputs, HoldEverySolutionBesideInputs) {
+  Containment c = oscillators(1);
+  c.options.varying = {{0, 1.0}};
+  c.horizon = 0.4;
+  c.times.resize(3);
+  Judge judge(c);
+  EXPECT_EQ(judge.tube().reached(), c.horizon) << judge.tube().why();
+  judge.judge(16);
+}
+
+}  // namespace
+}  // namespace gamut::testing
