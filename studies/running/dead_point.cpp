@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <stdexcept>
@@ -19,19 +20,29 @@
 namespace gamut {
 namespace {
 
-/// Along the nominal motion, its loops held.
+/// What of a mechanism's numbers is not nominal.
+struct OwnValues {
+  std::vector<std::string> parameters = {}, states = {};
+  std::vector<double> ofParameters = {}, atStart = {};
+};
+
+/// Along the motion of these values, its loops held.
 class Search {
  public:
-  Search(const Mechanism& held, double seconds)
-      : held_(held), assembly_(held), names_(held.stateNames()), seconds_(seconds) {
-    motion_.f = recordMotion(held, {}, Formulation::articulated);
-    motion_.g = recordOutputs(held, {}, names_);
+  Search(const Mechanism& held, const OwnValues& own, double seconds)
+      : held_(held), assembly_(held, own.parameters, own.ofParameters), names_(held.stateNames()), seconds_(seconds) {
+    motion_.f = recordMotion(held, own.parameters, Formulation::articulated);
+    motion_.g = recordOutputs(held, own.parameters, names_);
     start_ = assembly_.initialState();
-    // Of what loops follow from, differences.
+    for (std::size_t i = 0; i < own.states.size(); ++i) start_[placeOf(own.states[i])] = own.atStart[i];
+    // Of what loops or parameters tell, differences.
+    const std::vector<bool> isTold = held.startsWith(own.parameters);
+    for (std::size_t i = 0; i < isTold.size(); ++i)
+      if (isTold[i]) start_[i] = 0;
     std::vector<std::string> dependents = held.dependents(), rates = held.dependentRates();
     dependents.insert(dependents.end(), rates.begin(), rates.end());
-    for (const std::string& name : dependents)
-      start_[static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin())] = 0;
+    for (const std::string& name : dependents) start_[placeOf(name)] = 0;
+    start_.insert(start_.end(), own.ofParameters.begin(), own.ofParameters.end());
     atStart_ = gripOfLoops(held_, assembly_.system());
   }
 
@@ -50,7 +61,21 @@ class Search {
     return found;
   }
 
+  /// Where the motion comes to an end by equations in which dependent coordinates follow.
+  std::optional<Found> lookBefore(double end) {
+    std::vector<double> times;
+    for (const double before : nearly) times.push_back((1 - before) * end);
+    const std::size_t reached = follow(times);
+    return isLate_ ? std::nullopt : among(times, reached, false);
+  }
+
  private:
+  static constexpr std::array nearly{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};  // of a time, how long before
+
+  std::size_t placeOf(const std::string& state) const {
+    return static_cast<std::size_t>(std::ranges::find(names_, state) - names_.begin());
+  }
+
   /// In so many parts of a span of time.
   std::optional<Found> look(double begin, double end, int parts) {
     std::vector<double> times;
@@ -62,7 +87,7 @@ class Search {
     if (!isWhole) {  // close to where it ends
       const double last = ended_;
       times.resize(reached);
-      for (const double before : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7})
+      for (const double before : nearly)
         if (const double time = (1 - before) * last; time > (times.empty() ? begin : times.back()))
           times.push_back(time);
       reached = times.empty() ? 0 : follow(times);
@@ -122,7 +147,7 @@ class Search {
   std::vector<std::string> names_;
   double seconds_;
   Motion motion_;
-  std::vector<double> start_, trajectory_;  // all states; at each time
+  std::vector<double> start_, trajectory_;  // all states and parameters; the states at each time
   LoopGrip atStart_;
   double ended_ = 0;
   bool isLate_ = false;
@@ -130,14 +155,15 @@ class Search {
 
 std::string listed(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
-}  // namespace
-
-std::optional<DeadPoint> deadPointOf(const Study& study, double seconds) {
+/// `ended`: the time, if any, at which that motion is known to have ended.
+std::optional<DeadPoint> deadPointOf(const Study& study, const OwnValues& own, double seconds, double ended = 0) {
   if (!study.moves() || !study.mechanism.isClosed()) return std::nullopt;
   Mechanism held = study.mechanism;
   held.holdLoops();
   const bool isDriven = static_cast<std::size_t>(held.degreesOfFreedom()) == held.dependents().size();
-  std::optional<Search::Found> found = Search(held, seconds).find(study.horizon);
+  Search search(held, own, seconds);
+  std::optional<Search::Found> found = search.find(study.horizon);
+  if (!found && ended > 0) found = search.lookBefore(ended);
   if (!found) return std::nullopt;
   if (isDriven) found->isFlat = false, found->alike.clear();  // of what drives move no rows tell
   if (study.mechanism.areLoopsHeld() && !isDriven && !found->isFlat) return std::nullopt;
@@ -149,17 +175,34 @@ std::optional<DeadPoint> deadPointOf(const Study& study, double seconds) {
                    std::move(found->alike)};
 }
 
-std::string DeadPoint::sentence() const {
+}  // namespace
+
+std::optional<DeadPoint> deadPointOf(const Study& study, double seconds) { return deadPointOf(study, {}, seconds); }
+
+std::optional<DeadPoint> deadPointOf(const Machine& machine, std::span<const double> values, double ended,
+                                     double seconds) {
+  OwnValues own{.parameters = machine.freeParameters};
+  const std::vector<double> start = machine.motion.start(values);
+  own.ofParameters.assign(start.begin() + static_cast<std::ptrdiff_t>(machine.states), start.end());
+  const std::vector<std::string> states = machine.study.mechanism.stateNames();
+  for (const int slot : machine.motion.slot)
+    if (const auto i = static_cast<std::size_t>(slot); i < machine.states) {
+      own.states.push_back(states[i]);
+      own.atStart.push_back(start[i]);
+    }
+  return deadPointOf(machine.study, own, seconds, ended);
+}
+
+std::string DeadPoint::sentence(std::string_view whose) const {
   constexpr int digits = 4;
   const auto [earliest, latest] = outwardText(from, to, std::max(digits, digitsFor(to, to - from, 1)));
   const std::string when = fmt::format("between {} s and {} s", earliest, latest);
   if (!alike.empty())
     return fmt::format(
-        "the nominal motion comes {} to where rows of {} depend on each other, so that {} may go on in "
-        "more ways than one",
-        when, listed(alike), alike.size() == 1 ? "it" : "they");
-  return fmt::format("the nominal motion comes to a dead point of {} {}, where {} from no others", listed(coordinates),
-                     when, coordinates.size() == 1 ? "it follows" : "they follow");
+        "{} comes {} to where rows of {} depend on each other, so that {} may go on in more ways than one", whose, when,
+        listed(alike), alike.size() == 1 ? "it" : "they");
+  return fmt::format("{} comes to a dead point of {} {}, where {} from no others", whose, listed(coordinates), when,
+                     coordinates.size() == 1 ? "it follows" : "they follow");
 }
 
 std::string DeadPoint::advice() const {

@@ -15,6 +15,7 @@
 #include "analyses/samples/influence.hpp"
 #include "analyses/samples/order_statistics.hpp"
 #include "scalars/archive.hpp"
+#include "studies/running/dead_point.hpp"
 #include "studies/running/run_memory.hpp"
 #include "studies/running/sample_keeper.hpp"
 #include "studies/running/sampled_study.hpp"
@@ -104,6 +105,22 @@ std::string whyEnded(const Machine& machine, std::string why) {
   return why;
 }
 
+/// `why` or, of a sample of loops that are not placed, what dead point of its own it comes to, if that is told.
+std::string whyEnded(const Run& run, const EnsembleOptions& options, const FailedSample& sample) {
+  const Machine& machine = run.machine;
+  const bool isSingular = sample.why == Integration::stepsTooShort || sample.why == Integration::ratesNotFinite;
+  if (isSingular && !machine.placed && run.study.mechanism.isClosed() && machine.courses.empty()) try {
+      constexpr double about = 1.01, seconds = 5;
+      const SampleBlock block = replaySample(machine.motion, options, sample.number);
+      const auto dead = deadPointOf(machine, block.values(0), sample.reached, seconds);
+      if (dead && sample.reached < about * dead->to)
+        return fmt::format("{}; what helps: {}", dead->sentence("its motion"), dead->advice());
+    } catch (const std::domain_error&) {      // that motion has no value somewhere
+    } catch (const std::invalid_argument&) {  // it cannot be held
+    }
+  return whyEnded(machine, sample.why);
+}
+
 void describeSamples(const Run& run, const EnsembleRun& ensemble, Results& results) {
   StochasticResult& stochastic = results.stochastic;
   Statistics numbers = ensemble.statistics();
@@ -117,14 +134,20 @@ void describeSamples(const Run& run, const EnsembleRun& ensemble, Results& resul
   stochastic.quantileUpper = std::move(numbers.upper);
   stochastic.resolution = std::move(numbers.resolution);
   stochastic.error = ensemble.error();
-  stochastic.why = whyEnded(run.machine, ensemble.why());
+  stochastic.why = ensemble.why();
   stochastic.envelope = ensemble.envelope();
   stochastic.reached = ensemble.reached();
   stochastic.integrated = static_cast<std::int64_t>(ensemble.integrated());
   stochastic.failures = static_cast<std::int64_t>(ensemble.failures());
-  for (const FailedSample& sample : ensemble.failed())
-    stochastic.failed.push_back(
-        {static_cast<std::int64_t>(sample.number), sample.reached, whyEnded(run.machine, sample.why)});
+  constexpr std::size_t few = 16;  // each takes another integration
+  for (const FailedSample& sample : ensemble.failed()) {
+    const bool isOfFew = stochastic.failed.size() < few;
+    const std::string why = isOfFew ? whyEnded(run, ensemble.options(), sample) : whyEnded(run.machine, sample.why);
+    if (const std::size_t place = stochastic.why.find(sample.why);
+        stochastic.failed.empty() && place != std::string::npos)
+      stochastic.why.replace(place, sample.why.size(), why);
+    stochastic.failed.push_back({static_cast<std::int64_t>(sample.number), sample.reached, why});
+  }
   if (ensemble.options().plan == Plan::random && ensemble.isComplete() && stochastic.why.empty() &&
       ensemble.sampling().quantities() > 0)
     stochastic.covered = coveredShare(ensemble.counted(), 0.95);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,30 @@ TEST(DeadPoint, IsToldWhereARunEnds) {
   EXPECT_LT(results.interval.reached, 1);
   EXPECT_THAT(results.interval.why, HasSubstr("the nominal motion comes to a dead point of A.angle, B.angle between"));
   EXPECT_THAT(results.interval.advice, HasSubstr("mechanism.loops = \"multipliers\", or dependent = ["));
+}
+
+/// Each sample has one of its own, also where nominally the crank turns fully; or ends where all of the linkage is in
+/// line.
+TEST(DeadPoint, IsThatOfTheSampleThatEndsThere) {
+  const auto ended = [](const std::vector<std::string>& lengths, const std::string& interval) {
+    const std::string text = replaced(fourBarText("1", uncertain(lengths, interval)), "[\"interval\", ", "[");
+    return run(readStudyText(text, "s.toml"), {}).stochastic;
+  };
+  const StochasticResult wide = ended({"a", "d"}, "± 20 %");
+  ASSERT_GT(wide.failed.size(), 1U);
+  EXPECT_THAT(wide.why, HasSubstr(" s: its motion comes to a dead point of "));
+  const std::regex between(
+      "its motion comes to a dead point of [AB].angle, [BD].angle between ([0-9.]+) s and ([0-9.]+) "
+      "s, where they follow from no others; what helps: mechanism.loops = \"multipliers\".*");
+  for (const FailedSampleResult& sample : wide.failed) {
+    std::smatch found;
+    ASSERT_TRUE(std::regex_match(sample.why, found, between)) << sample.number << ": " << sample.why;
+    EXPECT_LT(0.999 * std::stod(found[1]), sample.reached);
+    EXPECT_GT(1.001 * std::stod(found[2]), sample.reached);
+  }
+  const StochasticResult narrow = ended({"a", "b", "c", "d"}, "± 10 %");  // at one corner a + d = b + c
+  EXPECT_THAT(narrow.failed,
+              ::testing::Contains(::testing::Field(&FailedSampleResult::why, HasSubstr("depend on each other"))));
 }
 
 /// Said before it runs, in the place of the loop.
