@@ -66,9 +66,10 @@ void archive(Archive& all, FlowPiece& piece) {
 
 void archive(Archive& all, FlowCollected& collected) {
   all(collected.states, collected.statesOver, collected.outputs, collected.outputsOver, collected.asides,
-      collected.outputsOfWhole, collected.cuts, collected.stateCore, collected.outputCore, collected.extremes,
-      collected.models, collected.chords, collected.influence, collected.unproved, collected.narrowing,
-      collected.metThreshold, collected.slideLoss, collected.steps, collected.cpu, collected.cutCpu);
+      collected.outputsOfWhole, collected.reached, collected.cuts, collected.stateCore, collected.outputCore,
+      collected.extremes, collected.models, collected.chords, collected.influence, collected.unproved,
+      collected.narrowing, collected.metThreshold, collected.slideLoss, collected.steps, collected.cpu,
+      collected.cutCpu);
 }
 
 void TightenedModels::archive(Archive& all) { all(models_, tightness_, firstTightness_, firstWork_, isWorkDone_); }
@@ -86,7 +87,8 @@ void FlowRun::archiveFindings(Archive& all) {
   bool isAbandoned = isAbandoned_, areAlternatives = areAlternatives_;
   all(task_.budget.limit, task_.budget.spent, pieces_, mostPieces_, nextProbe_, ended_, endedAt_, degree_,
       outputDegree_, looseness_, timeShare_, metThreshold_, slideLoss_, timeError_, truncation_, influence_, tops_,
-      needsDegree_, isOfOutputs_, ofPolynomials_, ofWhole_, narrowing_, isAbandoned, areAlternatives);
+      needsDegree_, isOfOutputs_, ofPolynomials_, ofWhole_, reachedByOutputs_, narrowing_, isAbandoned,
+      areAlternatives);
   isAbandoned_ = isAbandoned;
   areAlternatives_ = areAlternatives;
 }

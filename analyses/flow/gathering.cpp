@@ -32,6 +32,7 @@ void FlowCollected::join(FlowCollected&& other) {
   hulls(outputs, other.outputs);
   hulls(outputsOver, other.outputsOver);
   hulls(outputsOfWhole, other.outputsOfWhole);
+  hulls(reached, other.reached);
   hulls(asides, other.asides);
   hulls(stateCore, other.stateCore);
   hulls(outputCore, other.outputCore);
@@ -155,7 +156,7 @@ std::vector<std::vector<double>> FlowRun::excessOf(const Rows& bounds, Rows Flow
       if (!(part.*cores)[row].empty()) joinHulls(core[row], (part.*cores)[row]);
     for (std::size_t i = 0; i < bounds[row].size(); ++i) {
       const Interval& bound = bounds[row][i];
-      const bool isStart = core[row].empty();  // nothing is left over there, but how large an output was counts
+      const bool isStart = row == 0;  // hardly anything is left over there, but how large an output was counts
       if (isStart && !isBounded(bound)) continue;
       greatest[i] = std::max(greatest[i], width(bound));
       largest[i] = std::max(largest[i], magnitude(bound));
@@ -181,6 +182,10 @@ std::vector<std::vector<double>> FlowRun::excessOf(const Rows& bounds, Rows Flow
 void FlowRun::measureWhole(Tube& tube, double ofStates) {
   if (task_.outputs.outputs() == 0) return;
   Rows whole = tube.outputs_;
+  reachedByOutputs_.assign(whole.size(), Box(at(task_.outputs.outputs()), Interval::empty()));
+  for (const FlowCollected& part : collected_)
+    for (std::size_t row = 0; row < whole.size(); ++row)
+      if (!part.reached[row].empty()) joinHulls(reachedByOutputs_[row], part.reached[row]);
   for (const FlowCollected& part : collected_)
     for (std::size_t row = 0; row < whole.size(); ++row)
       if (!part.outputsOfWhole[row].empty()) joinHulls(whole[row], part.outputsOfWhole[row]);

@@ -72,6 +72,7 @@ enum class FlowJourney { goesOn, bisected, ended, cancelled };
 struct FlowCollected {
   std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver, asides;
   std::vector<std::vector<Interval>> outputsOfWhole;  // outputs, but for what parts of pieces tell
+  std::vector<std::vector<Interval>> reached;         // what outputs certainly reach, but for remainders
   std::vector<std::vector<std::vector<Interval>>> cuts;
   std::vector<std::vector<Interval>> stateCore, outputCore;  // see FlowFollower; their hulls
   std::vector<std::vector<OutputExtremes>> extremes;
@@ -91,6 +92,7 @@ struct FlowCollected {
         outputsOver(times),
         asides(times),
         outputsOfWhole(times),
+        reached(times),
         cuts(levels, std::vector<std::vector<Interval>>(times)),
         stateCore(times),
         outputCore(times),
@@ -194,17 +196,17 @@ class FlowFollower {
   void encloseLevels(const FlowPiece& piece, std::size_t row);
   std::shared_ptr<FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
                                              std::optional<std::size_t> row = {});
-  Interval valueAt(int output, const std::vector<double>& xi);
+  Interval valueAt(int output, const Box& place, bool hasRest = false);
   class Reached;
-  Reached reachedBy(int output, std::vector<double>& variation);
+  Reached reachedBy(int output);
+  std::vector<double> ifKnown(const std::vector<int>& outputs);
   struct Part;
   Part wholePart() const;
   Part halfOf(const Part& part, int symbol, double middle) const;
   void lookOver(const FlowPiece& piece, const std::vector<int>& outputs, Part& part);
   class Parts;
   std::vector<int> looseOutputs(const std::vector<Interval>& bounds) const;
-  void lookAtLoose(FlowPiece& piece, std::size_t row, const std::vector<Interval>& states,
-                   std::vector<Interval>& bounds);
+  void lookAtLoose(FlowPiece& piece, std::size_t row, std::vector<Interval>& bounds);
   void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
   void loadChords(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   OutputTools& toolsBetween(std::size_t layout, std::size_t ofStates);

@@ -23,11 +23,6 @@ bool isLoose(const Interval& bound, const Interval& core, double aim) {
   return width(bound) - width(core) > aim * width(core);
 }
 
-/// As a share of the core; 0 of one that is a point.
-double excessOf(const Interval& bound, const Interval& core) {
-  return width(core) > 0 ? (width(bound) - width(core)) / width(core) : 0;
-}
-
 }  // namespace
 
 /// What values span at least that lie somewhere in such intervals.
@@ -38,22 +33,28 @@ class FlowFollower::Reached {
     lowest_ = std::min(lowest_, value.upper());
     highest_ = std::max(highest_, value.lower());
   }
-  void add(const Reached& other) {
-    lowest_ = std::min(lowest_, other.lowest_);
-    highest_ = std::max(highest_, other.highest_);
+  void add(const Reached& other) { addSpan(other.lowest_, other.highest_); }
+  void addSpan(double lowest, double highest) {
+    lowest_ = std::min(lowest_, lowest);
+    highest_ = std::max(highest_, highest);
   }
-  Interval span() const { return lowest_ <= highest_ ? Interval(lowest_, highest_) : Interval::empty(); }
+  /// A point where all may be the same; empty of none.
+  Interval span() const {
+    if (lowest_ <= highest_) return {lowest_, highest_};
+    return std::isfinite(lowest_) ? Interval(0.5 * lowest_ + 0.5 * highest_) : Interval::empty();
+  }
 
  private:
   double lowest_ = std::numeric_limits<double>::infinity(), highest_ = -lowest_;
 };
 
-/// An output by plain intervals at this ξ, but for remainders; empty where they know nothing.
-Interval FlowFollower::valueAt(int output, const std::vector<double>& xi) {
-  const Box place(xi.begin(), xi.end());
+/// An output by plain intervals at these ξ, with or without what remainders add; empty where they know nothing.
+Interval FlowFollower::valueAt(int output, const Box& place, bool hasRest) {
   std::vector<Interval> states, parameters;
-  for (int i = 0; i < task_.motion.states(); ++i)
-    states.push_back(tool_->range(&point_.p[at(i * monomialCount_)], place));
+  for (int i = 0; i < task_.motion.states(); ++i) {
+    states.push_back(tool_->range(&point_.p[at(i * monomialCount_)], place, roughly));
+    if (hasRest) states.back() += inflated(Interval(point_.low[at(i)]), point_.radius[at(i)]);
+  }
   for (const Embedded& e : parameters_)
     parameters.push_back(e.symbol < 0 ? rangeOf(e) : Interval(e.centre) + Interval(e.half) * place[at(e.symbol)]);
   const Interval value = outputs_->overBox(output, Interval(at_), states, parameters);
@@ -61,17 +62,16 @@ Interval FlowFollower::valueAt(int output, const std::vector<double>& xi) {
 }
 
 /// What an output spans at least, by what it is at some ξ: in the middle, beside it along every axis, at the two
-/// corners to which it falls and rises from there, and where its polynomial is extreme. `variation`: adds what it
-/// differs by along each axis.
-FlowFollower::Reached FlowFollower::reachedBy(int output, std::vector<double>& variation) {
+/// corners to which it falls and rises from there, and where its polynomial is extreme.
+FlowFollower::Reached FlowFollower::reachedBy(int output) {
   constexpr double beside = 0.5;
   Reached reached;
   const auto look = [&](const std::vector<double>& xi) {
-    const Interval value = valueAt(output, xi);
+    const Interval value = valueAt(output, Box(xi.begin(), xi.end()));
     reached.add(value);
     return midpoint(value);
   };
-  std::vector<double> xi(at(symbols_), 0.0), least = xi, greatest = xi, along = xi;
+  std::vector<double> xi(at(symbols_), 0.0), least = xi, greatest = xi;
   look(xi);
   for (std::size_t l = 0; l < xi.size(); ++l) {
     xi[l] = -beside;
@@ -80,7 +80,6 @@ FlowFollower::Reached FlowFollower::reachedBy(int output, std::vector<double>& v
     const double above = look(xi);
     greatest[l] = above < below ? -1 : 1;
     least[l] = -greatest[l];
-    along[l] = std::fabs(above - below);
     xi[l] = 0;
   }
   look(least);
@@ -89,10 +88,22 @@ FlowFollower::Reached FlowFollower::reachedBy(int output, std::vector<double>& v
     (*outputRange_)(outputs_->polynomial(output), whole_, roughly);
     for (const auto* extreme : {&outputRange_->least(), &outputRange_->greatest()}) look(extreme->xi);
   }
-  const double all = width(reached.span());
-  for (std::size_t l = 0; l < xi.size(); ++l)
-    if (along[l] > 0 && all > 0) variation[l] += along[l] / all;
   return reached;
+}
+
+/// Of each symbol, by which share these outputs were narrower if it were known, as plain intervals tell, together.
+std::vector<double> FlowFollower::ifKnown(const std::vector<int>& outputs) {
+  std::vector<double> narrower(at(symbols_), 0.0);
+  for (const int o : outputs) {
+    const double whole = width(valueAt(o, whole_));
+    for (std::size_t l = 0; l < narrower.size(); ++l) {
+      Box place = whole_;
+      place[l] = Interval(0.0);
+      const double left = width(valueAt(o, place));
+      if (left < whole) narrower[l] += std::isfinite(whole) ? (whole - left) / whole : 1;
+    }
+  }
+  return narrower;
 }
 
 /// A part of the piece at one time, written in symbols of its own.
@@ -144,13 +155,13 @@ void FlowFollower::lookOver(const FlowPiece& piece, const std::vector<int>& outp
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     const int o = outputs[k];
     Interval bound = outputs_->overBox(o, Interval(at_), states, parameters);
-    part.reached[k].add(valueAt(o, part.middle));
+    part.reached[k].add(valueAt(o, Box(part.middle.begin(), part.middle.end())));
     if (std::isfinite(outputs_->radius(o))) {
       const Interval range = (*outputRange_)(outputs_->polynomial(o), whole_, roughly);
       bound = intersection(bound, inflated(range, outputs_->radius(o)));
       for (const auto* extreme : {&outputRange_->least(), &outputRange_->greatest()}) {
-        std::vector<double> xi = part.middle;
-        for (std::size_t l = 0; l < xi.size(); ++l) xi[l] += part.half[l] * extreme->xi[l];
+        Box xi(part.middle.begin(), part.middle.end());
+        for (std::size_t l = 0; l < xi.size(); ++l) xi[l] = Interval(part.middle[l] + part.half[l] * extreme->xi[l]);
         part.reached[k].add(valueAt(o, xi));
       }
     }
@@ -161,16 +172,19 @@ void FlowFollower::lookOver(const FlowPiece& piece, const std::vector<int>& outp
 /// The piece in parts, as few as tell the bounds of some outputs.
 class FlowFollower::Parts {
  public:
-  /// `variation`: of the outputs along every symbol, about.
   Parts(FlowFollower& follower, const FlowPiece& piece, const std::vector<int>& outputs,
-        const std::vector<Interval>& bounds, std::vector<double> variation)
-      : f_(follower), piece_(piece), outputs_(outputs), promise_(std::move(variation)) {
+        const std::vector<Interval>& bounds)
+      : f_(follower), piece_(piece), outputs_(outputs), promise_(follower.ifKnown(outputs)) {
     parts_.push_back(f_.wholePart());
-    for (const int o : outputs) parts_[0].bounds.push_back(bounds[at(o)]);
+    constexpr double hardly = 1e-3;
+    for (const int o : outputs) {
+      parts_[0].bounds.push_back(bounds[at(o)]);
+      least_.push_back(hardly * width(bounds[at(o)]));
+    }
     double sum = 0;
     for (const double along : promise_) sum += along;
-    constexpr double ofVariation = 0.1;
-    for (double& along : promise_) along = sum > 0 ? ofVariation * along / sum : ofVariation;
+    constexpr double guessed = 0.1;
+    for (double& along : promise_) along = sum > 0 ? guessed * along / sum : guessed;
   }
 
   /// The symbol of which halves narrow the outputs most; -1 if none does.
@@ -191,15 +205,15 @@ class FlowFollower::Parts {
     return best;
   }
 
-  /// Into so many parts at most, until bounds are no more than so wide beside what is reached at least, which grows on
-  /// the way. How many times something was put in half.
-  int part(int most, double aim, std::vector<Reached>& reached) {
+  /// Into so many parts at most, until bounds are no more than so wide beside what is reached at least, by the piece,
+  /// which grows on the way, or by all of the box (`known`). How many times something was put in half.
+  int part(int most, double aim, std::vector<Reached>& reached, std::vector<Reached> known) {
     constexpr int inVain = 12;
-    constexpr double helps = 0.9;
+    constexpr double helps = 0.9, settled = 0.25;  // an angle falls from all of the circle at once, part by part
     double before = std::numeric_limits<double>::infinity();
     int count = 0;
     for (int since = 0; count < most; ++count) {
-      const auto [part, excess, all] = loosest(reached);
+      const auto [part, output, excess, all] = loosest(known);
       if (!(excess > aim)) break;
       if (all < helps * before) {
         before = all;
@@ -207,9 +221,12 @@ class FlowFollower::Parts {
       } else if (++since == inVain) {
         break;
       }
+      const double whole = width(parts_[part].bounds[output]);
       std::vector<Part> halves = halvesOf(parts_[part], symbolFor(parts_[part]));
+      if (std::min(width(halves[0].bounds[output]), width(halves[1].bounds[output])) < settled * whole) since = 0;
       for (const Part& half : halves)
-        for (std::size_t k = 0; k < outputs_.size(); ++k) reached[k].add(half.reached[k]);
+        for (std::size_t k = 0; k < outputs_.size(); ++k)
+          for (Reached* of : {&reached[k], &known[k]}) of->add(half.reached[k]);
       parts_[part] = std::move(halves[0]);
       parts_.push_back(std::move(halves[1]));
     }
@@ -225,25 +242,25 @@ class FlowFollower::Parts {
 
  private:
   struct Loosest {
-    std::size_t part = 0;
-    double excess = 0, all = 0;  // of its output at one end; of all outputs at both
+    std::size_t part = 0, output = 0;
+    double excess = 0, all = 0;  // of this output at one end; of all outputs at both
   };
 
   Loosest loosest(const std::vector<Reached>& reached) const {
     Loosest found;
     for (std::size_t k = 0; k < outputs_.size(); ++k) {
       const Interval core = reached[k].span();
-      if (!(width(core) > 0)) continue;
+      const double scale = std::max(width(core), least_[k]);
       std::size_t lowest = 0, highest = 0;
       for (std::size_t i = 1; i < parts_.size(); ++i) {
         if (parts_[i].bounds[k].lower() < parts_[lowest].bounds[k].lower()) lowest = i;
         if (parts_[i].bounds[k].upper() > parts_[highest].bounds[k].upper()) highest = i;
       }
-      const double below = (core.lower() - parts_[lowest].bounds[k].lower()) / width(core),
-                   above = (parts_[highest].bounds[k].upper() - core.upper()) / width(core);
+      const double below = (core.lower() - parts_[lowest].bounds[k].lower()) / scale,
+                   above = (parts_[highest].bounds[k].upper() - core.upper()) / scale;
       found.all += std::max(below, 0.0) + std::max(above, 0.0);
-      if (below > found.excess) found.part = lowest, found.excess = below;
-      if (above > found.excess) found.part = highest, found.excess = above;
+      if (below > found.excess) found.part = lowest, found.output = k, found.excess = below;
+      if (above > found.excess) found.part = highest, found.output = k, found.excess = above;
     }
     return found;
   }
@@ -269,6 +286,7 @@ class FlowFollower::Parts {
   const FlowPiece& piece_;
   const std::vector<int>& outputs_;
   std::vector<double> promise_;  // of every symbol, what halving it does
+  std::vector<double> least_;    // of outputs, what they vary by for excess to be a share of it
   std::vector<Part> parts_;
 };
 
@@ -277,10 +295,8 @@ std::vector<int> FlowFollower::looseOutputs(const std::vector<Interval>& bounds)
   std::vector<int> loose;
   if (outputs_ == nullptr || symbols_ == 0 || signs_ > 0) return loose;
   const bool knowsMore = knowsMoreByBoxes();
-  // Of an angle on both sides of ±π all of the circle is left, whatever is halved.
-  const auto isCircle = [&](const Interval& bound) { return outputs_->hasAngles() && width(bound) > 6.28; };
   for (int o = 0; o < outputs_->count(); ++o)
-    if (isBounded(bounds[at(o)]) && !isCircle(bounds[at(o)]) &&
+    if (isBounded(bounds[at(o)]) &&
         (!std::isfinite(outputs_->radius(o)) || (knowsMore && isLoose(bounds[at(o)], outputCore_[at(o)], task_.aim()))))
       loose.push_back(o);
   return loose;
@@ -288,38 +304,46 @@ std::vector<int> FlowFollower::looseOutputs(const std::vector<Interval>& bounds)
 
 /// At an output time, of what was enclosed last, in these bounds, which parts of the piece narrow: which symbol is to
 /// be halved for outputs that are loose, of the first such times each, later of fewer and fewer.
-void FlowFollower::lookAtLoose(FlowPiece& piece, std::size_t row, const std::vector<Interval>& states,
-                               std::vector<Interval>& bounds) {
+void FlowFollower::lookAtLoose(FlowPiece& piece, std::size_t row, std::vector<Interval>& bounds) {
   constexpr std::size_t denselyHalved = 8;
   constexpr int firstParts = 64, partsOfRow = 8, mostParts = 256;
-  const std::vector<int> loose = looseOutputs(bounds);
+  collected_.unproved[row].resize(bounds.size());
+  std::vector<int> loose;
+  std::vector<Reached> reached, known;
+  const Box middle(at(symbols_), Interval(0.0));
+  std::vector<Interval> certain = outputCore_;
+  for (const int o : looseOutputs(bounds)) {
+    const Reached found = reachedBy(o);
+    const Interval core = intersection(found.span(), bounds[at(o)]);
+    certain[at(o)] = core;
+    // Of an angle that starts have on both sides of ±π all of the circle is left, whatever is halved.
+    if (outputs_->hasAngles() && width(bounds[at(o)]) > 6.28 && width(core) > 3.14) continue;
+    if (!std::isfinite(outputs_->radius(o))) collected_.unproved[row][at(o)] = 1;
+    if (isEmpty(core)) continue;
+    if (width(core) > 0) outputCore_[at(o)] = core;
+    Reached ofAll = found;
+    if (row < task_.reached.size()) ofAll.addSpan(task_.reached[row][at(o)].lower(), task_.reached[row][at(o)].upper());
+    if (!isLoose(hull(ofAll.span(), bounds[at(o)]), ofAll.span(), 0.5 * task_.aim())) continue;
+    // Where states are as loose, parts of the piece are in vain.
+    constexpr double asLoose = 0.5;
+    const double rest = width(valueAt(o, middle, true)) - width(valueAt(o, middle));
+    if (rest > std::max(task_.aim() * width(core), asLoose * (width(bounds[at(o)]) - width(core)))) continue;
+    loose.push_back(o);
+    reached.push_back(found);
+    known.push_back(ofAll);
+  }
+  joinHulls(collected_.reached[row], certain);
   if (loose.empty()) return;
   const std::size_t before = piece.looseRows++;
   piece.mayPart = std::min(piece.mayPart + (before == 0 ? firstParts : partsOfRow), mostParts);
-  collected_.unproved[row].resize(bounds.size());
-  std::vector<double> variation(at(symbols_), 0.0);
-  std::vector<Reached> reached;
-  double looseness = 0;
-  for (const int o : loose) {
-    reached.push_back(reachedBy(o, variation));
-    const Interval core = intersection(reached.back().span(), bounds[at(o)]);
-    looseness = std::max(looseness, excessOf(bounds[at(o)], core));
-    if (std::isfinite(outputs_->radius(o))) continue;
-    collected_.unproved[row][at(o)] = 1;
-    if (width(core) > 0) outputCore_[at(o)] = core;
-  }
-  // Where states are as loose, parts of the piece are in vain.
-  constexpr double asLoose = 0.25;
-  for (std::size_t i = 0; i < states.size(); ++i)
-    if (isLoose(states[i], stateCore_[i], std::max(task_.aim(), asLoose * looseness))) return;
-  Parts parts(*this, piece, loose, bounds, std::move(variation));
+  Parts parts(*this, piece, loose, bounds);
   const bool isLookedAt = before % std::bit_floor(1 + before / denselyHalved) == 0;
   if (isLookedAt && task_.options.split) {
     const int best = parts.halveAll();
     if (best >= 0 && !task_.isLast) ++collected_.narrowing[at(best)];
   }
   joinHulls(collected_.outputsOfWhole[row], bounds);
-  piece.mayPart -= parts.part(piece.mayPart, 0.5 * task_.aim(), reached);
+  piece.mayPart -= parts.part(piece.mayPart, 0.5 * task_.aim(), reached, std::move(known));
   for (std::size_t k = 0; k < loose.size(); ++k) {
     Interval& bound = bounds[at(loose[k])];
     bound = intersection(bound, parts.hullOf(k));

@@ -67,6 +67,8 @@ class FlowFollower::Recording {
     std::vector<Interval> outputs;
     f_.extremes_.resize(f_.extremesAt(0));
     f_.enclose(piece_, 0.0, piece_.last, outputs);
+    f_.lookAtLoose(piece_, 0, outputs);
+    if (f_.signs_ == 0) joinHulls(f_.collected_.outputCore[0], f_.outputCore_);
     f_.takeExtremes(0);
     piece_.lastOutputs = f_.outputLimits_;
     piece_.lastRadii = f_.radii();
@@ -258,7 +260,7 @@ class FlowFollower::Recording {
     f_.encloseWhileTurning(piece_, tau, ofParts_, outputsOfParts_);
     f_.extremes_.resize(f_.extremesAt(row));
     f_.enclose(piece_, tau, end_.states, end_.outputs);
-    f_.lookAtLoose(piece_, row, end_.states, end_.outputs);
+    f_.lookAtLoose(piece_, row, end_.outputs);
     meet(end_.states, f_.stateCore_, ofParts_);
     meet(end_.outputs, f_.outputCore_, outputsOfParts_);
     end_.limits = f_.outputLimits_;

@@ -277,6 +277,7 @@ class FixedPieces {
       const double enough = std::max(task.aim(), question_.options.enough);
       addTo(best, looseness, std::move(tube), own);
       if (isStopped) return true;
+      if (isWhole) round.reached = run.reachedByOutputs();
       const double cost = question_.budget.spent - before;
       if (std::exchange(isCheap, false)) {
         isCheap = isWhole && cuts_.add(round, run, cost);
@@ -411,6 +412,7 @@ class Rounds {
     addTo(best, looseness, std::move(tube), outcome.own);
     if (round_.isLast) return false;
     const bool isWhole = reached_ == question_.horizon;
+    if (isWhole) round_.reached = run.reachedByOutputs();
     // With other weights symbols have other numbers.
     if (!outcome.weighsAnew && isWhole && cuts_.add(round_, run, cost)) {
       --count_;

@@ -39,6 +39,8 @@ class FlowRun {
   bool isOfOutputs() const { return isOfOutputs_; }
   /// How loose such outputs are: the mean of e/(1 + e), e as looseness(), over all times and outputs.
   double loosenessOfWhole() const { return ofWhole_; }
+  /// What outputs reach at least, at every time, but for remainders: by some starts, or by their polynomials.
+  const std::vector<Box>& reachedByOutputs() const { return reachedByOutputs_; }
   /// The symbol to halve for loose outputs; -1 if none promises anything.
   int mostNarrowing() const;
   /// Why no tighter run would be tighter; none if it might.
@@ -189,6 +191,7 @@ class FlowRun {
   int degree_ = 0, outputDegree_ = 0;
   double looseness_ = 0, ofPolynomials_ = 0, timeShare_ = 0;  // ofPolynomials_: where these could be proved
   double ofWhole_ = 0;
+  std::vector<Box> reachedByOutputs_;
   bool metThreshold_ = false;
   double slideLoss_ = 0;
   double timeError_ = 0, truncation_ = 0;  // of pieces that have ended

@@ -71,6 +71,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       standsStill(isZero(motion)),
       starts(question.starts),
       cuts(round.cuts),
+      reached(round.reached),
       richer(round.richer),
       scales(round.scales) {
   for (const char isBent : bentStates(motion)) bends.push_back(isBent);

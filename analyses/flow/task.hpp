@@ -65,6 +65,7 @@ struct FlowRound {
   int fixedDegree = 0;                            ///< if not 0: no bisection on the way, and up to this degree
   std::vector<int> cuts;                          ///< symbols, each halved on all pieces before the first step
   Emphasis emphasis;                              ///< none: every symbol alike
+  std::vector<Box> reached;                       ///< what outputs reach at least, at every time; none: it is not known
   std::shared_ptr<const FlowScales> scales = {};  ///< null: they are not known
 };
 
@@ -109,6 +110,7 @@ struct FlowTask {
   bool standsStill;                          // no state moves: loads of a given motion, which are functions of time
   const Program* starts;                     // FlowQuestion
   std::vector<int> cuts;                     // FlowRound
+  std::vector<Box> reached;                  // FlowRound
   std::vector<int> varying;                  // parameters that are inputs
   std::vector<FlowLayout> layouts;           // degrees rising, then the expanded one
   std::size_t degrees = 0;                   // how many are not expanded

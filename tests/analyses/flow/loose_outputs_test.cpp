@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "tests/analyses/flow/containment.hpp"
 
@@ -62,6 +64,56 @@ TEST(LooseOutputs, HoldEverySolutionBesideInputs) {
   Judge judge(c);
   EXPECT_EQ(judge.tube().reached(), c.horizon) << judge.tube().why();
   judge.judge(16);
+}
+
+/// Beside a state that rests, at the start as well as later: of what states span all is known, so that parts tell all.
+Containment besideRest() {
+  Containment c;
+  c.f = record(4, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -(9.0 + p[0]) * x[0];
+    dx[2] = x[3];
+    dx[3] = -4.0 * x[2];
+  });
+  c.g = record(4, 1, 3, [](auto, const auto& x, const auto& p, auto& y) {
+    const Recorded kink = abs(x[0] - 0.5);
+    y[0] = sqrt(sqr(x[0] - 0.5) + sqr(p[0])) - abs(x[0] - 0.48);
+    y[1] = atan2(1.01 * kink + 0.01 - kink, x[2] - 0.3 - p[0]);  // over the whole piece any angle
+    y[2] = max(x[0], p[0] + 0.5) - min(x[0], 0.5 - p[0]);
+  });
+  c.box = {Interval(0.45, 0.55), Interval(0.0), Interval(0.0), Interval(0.0), Interval(-0.05, 0.06)};
+  c.horizon = 0.1;
+  c.times = {0.05};
+  c.options.maxPieces = 32;
+  return c;
+}
+
+TEST(LooseOutputs, AreAsTightAtTheStartAndBesideStatesThatRest) {
+  const Containment c = besideRest();
+  Judge judge(c);
+  judge.judge(8);
+  const Tube& tube = judge.tube();
+  EXPECT_LT(tube.tightness(), 1.03);
+  Evaluator<double> outputs(*c.g);
+  for (std::size_t row = 0; row < tube.reachedTimes(); ++row) {
+    SCOPED_TRACE(tube.times()[row]);
+    std::vector<double> least(3, 10), greatest(3, -10);
+    constexpr int parts = 80;
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; j <= parts; ++j) {
+        const double x = 0.45 + 0.1 * i / parts, p = -0.05 + 0.11 * j / parts, w = std::sqrt(9 + p);
+        const double time = tube.times()[row];
+        const std::vector<double> parameters{p}, state{x * std::cos(w * time), -x * w * std::sin(w * time), 0.0, 0.0};
+        outputs.setParameters(parameters);
+        const auto y = outputs(time, state);
+        for (std::size_t o = 0; o < 3; ++o) {
+          least[o] = std::min(least[o], y[o]);
+          greatest[o] = std::max(greatest[o], y[o]);
+        }
+      }
+    for (std::size_t o = 0; o < 3; ++o)
+      EXPECT_LT(width(tube.outputs(row)[o]), 1.03 * (greatest[o] - least[o])) << o << ' ' << tube.outputs(row)[o];
+  }
 }
 
 }  // namespace
