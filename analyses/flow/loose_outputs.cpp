@@ -340,7 +340,8 @@ void FlowFollower::lookAtLoose(FlowPiece& piece, std::size_t row, std::vector<In
   const bool isLookedAt = before % std::bit_floor(1 + before / denselyHalved) == 0;
   if (isLookedAt && task_.options.split) {
     const int best = parts.halveAll();
-    if (best >= 0 && !task_.isLast) ++collected_.narrowing[at(best)];
+    const bool isOfBox = best >= 0 && best < task_.embedding.symbols;  // else one of a remainder's own
+    if (isOfBox && !task_.isLast) ++collected_.narrowing[at(best)];
   }
   joinHulls(collected_.outputsOfWhole[row], bounds);
   piece.mayPart -= parts.part(piece.mayPart, 0.5 * task_.aim(), reached, std::move(known));

@@ -116,5 +116,27 @@ TEST(LooseOutputs, AreAsTightAtTheStartAndBesideStatesThatRest) {
   }
 }
 
+/// Of a start that is known but for rounding, whose remainder grows until it gets symbols of its own: these are none of
+/// the box, and no matter for cuts.
+TEST(LooseOutputs, AreKnownOfRemaindersWithSymbolsOfTheirOwn) {
+  Containment c;
+  c.f = record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = 5.0 * (x[0] - cos(t)) - sin(t); });
+  c.g = record(1, 0, 2, [](auto t, const auto& x, const auto&, auto& y) {
+    const Recorded off = x[0] - cos(t);
+    y[0] = abs(off) - 0.99 * abs(off - 1e-7);
+    y[1] = sqrt(sqr(off) + sqr(off * (1.0 - off)));
+  });
+  c.box = {Interval(1.0 - 0x1p-44, 1.0 + 0x1p-44)};
+  c.horizon = 4;
+  c.times = {1, 2, 3, 3.5};
+  for (const bool split : {true, false}) {
+    SCOPED_TRACE(split);
+    c.options.split = split;
+    Judge judge(c);
+    EXPECT_EQ(judge.tube().reached(), c.horizon) << judge.tube().why();
+    judge.judge(6);
+  }
+}
+
 }  // namespace
 }  // namespace gamut::testing
